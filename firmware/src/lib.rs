@@ -1,0 +1,3 @@
+//! The excavator control application.
+#![no_std]
+#![forbid(unsafe_code)]

@@ -1,0 +1,1 @@
+//! Simulated machine and hardware for the excavator controller.

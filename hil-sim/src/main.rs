@@ -1,0 +1,2 @@
+//! `hil`: the desktop harness.
+fn main() {}

@@ -1,0 +1,155 @@
+//! Joints ↔ wrist and tip in the boom's vertical plane: Koivo 1994 (4)–(9), (19)–(28), Frankel 2003 `Jdisp`, `Rdisp`.
+//!
+//! The plane is swung by θ1 about the swing axis; reach and height are measured in it, in the base frame whose origin
+//! lies on the swing axis at boom-pin height. Reach is signed: the tip may stand behind the axis.
+
+use crate::{PoseError, Real, Rotor, Vec2};
+
+/// Joint rotations in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joints<T> {
+    /// θ2, elevation of the boom line.
+    pub boom: Rotor<T>,
+    /// θ3, arm relative to the boom; negative when curled.
+    pub arm: Rotor<T>,
+    /// θ4, bucket relative to the arm.
+    pub bucket: Rotor<T>,
+}
+
+impl<T: Real> Joints<T> {
+    /// The bucket's pitch φ = θ2 + θ3 + θ4.
+    #[inline(always)]
+    pub fn pitch(&self) -> Rotor<T> {
+        self.boom * self.arm * self.bucket
+    }
+}
+
+/// The bucket tip (N in Koivo 1994) in the plane, with the bucket's pitch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneTip<T> {
+    /// Signed distance from the swing axis, m.
+    pub reach: T,
+    /// Height above the boom pin, m.
+    pub height: T,
+    /// φ = θ2 + θ3 + θ4: direction from bucket pin to tip.
+    pub pitch: Rotor<T>,
+}
+
+/// The link lengths a1…a4 and what follows from them.
+#[derive(Clone, Copy, Debug)]
+pub struct Chain<T> {
+    a1: T,
+    a2: T,
+    a3: T,
+    a4: T,
+    /// (a2 + a3)² and (a2 − a3)²
+    outer_square: T,
+    inner_square: T,
+    /// a2² − a3², 1/2a2, 1/a3
+    balance: T,
+    half_over_a2: T,
+    one_over_a3: T,
+}
+
+impl<T: Real> Chain<T> {
+    /// The chain of a1 (swing axis to boom pin), a2 boom, a3 arm, a4 bucket; metres, a2…a4 positive.
+    pub fn new(a: [f64; 4]) -> Self {
+        let [a1, a2, a3, a4] = a;
+        Self {
+            a1: T::from_f64(a1),
+            a2: T::from_f64(a2),
+            a3: T::from_f64(a3),
+            a4: T::from_f64(a4),
+            outer_square: T::from_f64((a2 + a3) * (a2 + a3)),
+            inner_square: T::from_f64((a2 - a3) * (a2 - a3)),
+            balance: T::from_f64(a2 * a2 - a3 * a3),
+            half_over_a2: T::from_f64(0.5 / a2),
+            one_over_a3: T::from_f64(1.0 / a3),
+        }
+    }
+
+    /// a1…a4, m.
+    pub fn lengths(&self) -> [T; 4] {
+        [self.a1, self.a2, self.a3, self.a4]
+    }
+
+    /// Joints → tip, Koivo 1994 (8), (9) in the plane.
+    #[inline(always)]
+    pub fn tip(&self, joints: &Joints<T>) -> PlaneTip<T> {
+        let arm = joints.boom * joints.arm;
+        let pitch = arm * joints.bucket;
+        PlaneTip {
+            reach: self.a1 + (self.a2 * joints.boom.cos + (self.a3 * arm.cos + self.a4 * pitch.cos)),
+            height: self.a2 * joints.boom.sin + (self.a3 * arm.sin + self.a4 * pitch.sin),
+            pitch,
+        }
+    }
+
+    /// Joints → wrist (bucket pin, D in Koivo 1994), Koivo 1994 (5) in the plane: (reach, height).
+    #[inline(always)]
+    pub fn wrist(&self, joints: &Joints<T>) -> Vec2<T> {
+        let arm = joints.boom * joints.arm;
+        Vec2::new(
+            self.a1 + (self.a2 * joints.boom.cos + self.a3 * arm.cos),
+            self.a2 * joints.boom.sin + self.a3 * arm.sin,
+        )
+    }
+
+    /// Tip → joints; Koivo 1994 (24)–(27) with (27) corrected to p_D = p_N − a4·(c234, s234) in the plane.
+    ///
+    /// # Errors
+    /// [`PoseError::Unreachable`] when the wrist lies outside what boom and arm reach.
+    #[inline(always)]
+    pub fn joints(&self, tip: &PlaneTip<T>) -> Result<Joints<T>, PoseError<T>> {
+        let wrist = Vec2::new(tip.reach - self.a1 - self.a4 * tip.pitch.cos, tip.height - self.a4 * tip.pitch.sin);
+        let (boom, arm) = self.boom_and_arm(wrist)?;
+        Ok(Joints { boom, arm: arm * boom.inverse(), bucket: tip.pitch * arm.inverse() })
+    }
+
+    /// Wrist (reach, height) and pitch → joints, for a bucket given by its pin: Koivo 1994 (23)–(26).
+    ///
+    /// # Errors
+    /// As [`Chain::joints`].
+    #[inline]
+    pub fn joints_from_wrist(&self, wrist: Vec2<T>, pitch: Rotor<T>) -> Result<Joints<T>, PoseError<T>> {
+        let (boom, arm) = self.boom_and_arm(Vec2::new(wrist.x - self.a1, wrist.z))?;
+        Ok(Joints { boom, arm: arm * boom.inverse(), bucket: pitch * arm.inverse() })
+    }
+
+    /// Bucket pin from the boom pin → rotors of θ2 and of θ2 + θ3, the knee above the line (θ3 < 0).
+    #[inline(always)]
+    fn boom_and_arm(&self, wrist: Vec2<T>) -> Result<(Rotor<T>, Rotor<T>), PoseError<T>> {
+        let square = wrist.norm_squared();
+        // (2·a2·|D|)² − (a2² − a3² + |D|²)², as a product of differences: accurate near the stretched arm.
+        let discriminant = (self.outer_square - square) * (square - self.inner_square);
+        if !(discriminant >= T::ZERO && square > T::ZERO) {
+            return Err(self.unreachable(square));
+        }
+        // The boom line from the line to the wrist: a2·rotor = (square + a2² − a3² + i·√)·D / 2|D|².
+        let turn = Vec2::new(square + self.balance, discriminant.sqrt());
+        let boom = turn.complex_mul(wrist).scale(self.half_over_a2 / square);
+        let arm = (wrist - boom.scale(self.a2)).scale(self.one_over_a3);
+        Ok((Rotor { cos: boom.x, sin: boom.z }, Rotor { cos: arm.x, sin: arm.z }))
+    }
+
+    #[cold]
+    fn unreachable(&self, square: T) -> PoseError<T> {
+        let distance = square.sqrt();
+        let outer = self.a2 + self.a3;
+        let by = if distance > outer { distance - outer } else { distance - self.inner_square.sqrt() };
+        PoseError::Unreachable { by }
+    }
+}
+
+/// Bucket pitch from the digging angle θ_dg between the bucket's bottom plane and the horizontal, and θ_b between that
+/// plane and the bucket line: Koivo 1994 (28), θ4 = θ_b + θ_dg − θ2 − θ3, that is φ = θ_b + θ_dg.
+#[inline]
+pub fn pitch_from_digging_angle<T: Real>(bottom: Rotor<T>, digging: Rotor<T>) -> Rotor<T> {
+    bottom * digging
+}
+
+/// The inverse of [`pitch_from_digging_angle`]: θ_dg = φ − θ_b.
+#[inline]
+pub fn digging_angle<T: Real>(bottom: Rotor<T>, pitch: Rotor<T>) -> Rotor<T> {
+    pitch * bottom.inverse()
+}

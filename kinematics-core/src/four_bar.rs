@@ -1,0 +1,154 @@
+//! The bucket's linkage: a cylinder turns a rocker, a coupler joins it to the bucket. Closed form both ways.
+//!
+//! Koivo 1994 (14)–(18), (29) need ε3 from a sensor and Frankel 2003 (15) searches; two intersections of circles, one square
+//! root and one division each, need neither. E cylinder base, I rocker pivot, P = (a3, 0) bucket pin (arm frame),
+//! H coupler pin (bucket frame), J common pin of rod, rocker and coupler, K the coupler pin in the arm frame.
+
+use crate::triangle::{Side, Triangle};
+use crate::{Real, Rotor, Vec2};
+
+/// Which part of the linkage does not close, and by how much [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap<T>(pub T);
+
+/// The bucket's four-bar with its cylinder.
+#[derive(Clone, Copy, Debug)]
+pub struct FourBar<T> {
+    /// Cylinder, rocker and E–I; gives J − I in the arm frame.
+    rocker: Triangle<T>,
+    /// I − P
+    pivot_from_pin: Vec2<T>,
+    /// |H|² − c² and 4|H|²
+    pin_balance: T,
+    four_pin: T,
+    /// conj(H)/2|H|²
+    unwind: Vec2<T>,
+    /// H
+    coupler_pin: Vec2<T>,
+    /// r² − c² and 4r²
+    rocker_balance: T,
+    four_rocker: T,
+    /// I − E and r² + |I − E|²
+    pivot_from_base: Vec2<T>,
+    squares: T,
+    /// |H|, c and r, for messages.
+    sides: [T; 3],
+}
+
+impl<T: Real> FourBar<T> {
+    /// The linkage with the cylinder's base E, the rocker pivot I and the bucket pin P in the arm frame, the coupler
+    /// pin H in the bucket frame, rocker and coupler lengths; metres. `PinGeometry::validate` sees to it that none
+    /// is zero.
+    pub fn new(
+        base: Vec2<f64>,
+        pivot: Vec2<f64>,
+        pin: Vec2<f64>,
+        coupler_pin: Vec2<f64>,
+        rocker: f64,
+        coupler: f64,
+    ) -> Self {
+        let round = |v: Vec2<f64>| Vec2::new(T::from_f64(v.x), T::from_f64(v.z));
+        let pin_square = coupler_pin.norm_squared();
+        let arm = pivot - base;
+        Self {
+            // Clockwise: the rocker's J lies at R(−α) from E, seen from I.
+            rocker: Triangle::new(base - pivot, Vec2::new(rocker, 0.0), Side::Clockwise, rocker),
+            pivot_from_pin: round(pivot - pin),
+            pin_balance: T::from_f64(pin_square - coupler * coupler),
+            four_pin: T::from_f64(4.0 * pin_square),
+            unwind: round(coupler_pin.conjugate().scale(0.5 / pin_square)),
+            coupler_pin: round(coupler_pin),
+            rocker_balance: T::from_f64(rocker * rocker - coupler * coupler),
+            four_rocker: T::from_f64(4.0 * rocker * rocker),
+            pivot_from_base: round(arm),
+            squares: T::from_f64(rocker * rocker + arm.norm_squared()),
+            sides: [coupler_pin.norm(), coupler, rocker].map(T::from_f64),
+        }
+    }
+
+    /// Cylinder length [m] → rotor of θ4.
+    #[inline(always)]
+    pub fn rotor(&self, length: T) -> Result<Rotor<T>, Gap<T>> {
+        let j = self.pivot_from_pin + self.rocker.vector(length).map_err(Gap)?;
+        let (square, balance, discriminant) = self.pin_circle(j);
+        if discriminant >= T::ZERO {
+            Ok(self.assemble(j, square, balance, discriminant))
+        } else {
+            Err(self.gap(square, self.sides[0]))
+        }
+    }
+
+    /// [`FourBar::rotor`] without the checks: not a number where the linkage does not close.
+    #[inline(always)]
+    pub fn rotor_unchecked(&self, length: T) -> Rotor<T> {
+        let j = self.pivot_from_pin + self.rocker.vector_unchecked(length);
+        let (square, balance, discriminant) = self.pin_circle(j);
+        self.assemble(j, square, balance, discriminant)
+    }
+
+    /// Rotor of θ4 → cylinder length [m]: K from θ4, J from the circles (I, r) and (K, c) on the + side,
+    /// `J = I + (r/|d|)·R(+a)·d` with d = K − I.
+    #[inline(always)]
+    pub fn length(&self, rotor: Rotor<T>) -> Result<T, Gap<T>> {
+        let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
+        let square = d.norm_squared();
+        let balance = square + self.rocker_balance;
+        let discriminant = self.four_rocker * square - balance * balance;
+        if !(discriminant >= T::ZERO && square > T::ZERO) {
+            return Err(self.gap(square, self.sides[2]));
+        }
+        // J − I = (balance + i·√discriminant)·d / 2|d|²; |J − E|² by its product with I − E.
+        let along = d.dot(self.pivot_from_base);
+        let across = d.cross(self.pivot_from_base);
+        let length_squared = self.squares + (balance * along + discriminant.sqrt() * across) / square;
+        if length_squared > T::ZERO { Ok(length_squared.sqrt()) } else { Ok(T::ZERO) }
+    }
+
+    /// |J − P|², |J − P|² + |H|² − c², and what is under the root.
+    #[inline(always)]
+    fn pin_circle(&self, j: Vec2<T>) -> (T, T, T) {
+        let square = j.norm_squared();
+        let balance = square + self.pin_balance;
+        (square, balance, self.four_pin * square - balance * balance)
+    }
+
+    /// K − P = (balance − i·√discriminant)·(J − P) / 2|J − P|² on the − side; θ4's rotor from K − P = H·rotor.
+    #[inline(always)]
+    fn assemble(&self, j: Vec2<T>, square: T, balance: T, discriminant: T) -> Rotor<T> {
+        let turn = Vec2::new(balance, -discriminant.sqrt());
+        let v = turn.complex_mul(j).complex_mul(self.unwind);
+        let reciprocal = T::ONE / square;
+        Rotor { cos: v.x * reciprocal, sin: v.z * reciprocal }
+    }
+
+    /// By how much a triangle of `side`, the coupler and √square misses closing.
+    #[cold]
+    fn gap(&self, square: T, side: T) -> Gap<T> {
+        let distance = square.sqrt();
+        let coupler = self.sides[1];
+        let over = distance - (side + coupler);
+        if over > T::ZERO {
+            return Gap(over);
+        }
+        let difference = if side > coupler { side - coupler } else { coupler - side };
+        Gap(difference - distance)
+    }
+}
+
+/// Signs that tell the linkage's assembly in f64, for validation: both positive while neither map folds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Assembly {
+    /// (K − P) × (J − P): zero at the forward map's dead point (coupler and bucket pin in line).
+    pub(crate) forward: f64,
+    /// (K − I) × (J − I): zero at the inverse map's dead point (rocker and coupler in line).
+    pub(crate) inverse: f64,
+}
+
+impl FourBar<f64> {
+    pub(crate) fn assembly(&self, length: f64) -> Result<Assembly, Gap<f64>> {
+        let rocker = self.rocker.vector(length).map_err(Gap)?;
+        let j = self.pivot_from_pin + rocker;
+        let k = self.rotor(length)?.rotate(self.coupler_pin);
+        Ok(Assembly { forward: k.cross(j), inverse: (k - self.pivot_from_pin).cross(rocker) })
+    }
+}

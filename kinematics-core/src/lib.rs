@@ -1,0 +1,55 @@
+//! Closed-form kinematics of an excavator's or backhoe's working equipment: swing, boom, arm, bucket.
+//!
+//! Every joint is a unit complex number, a [`Rotor`] `(cos θ, sin θ)`. Rotations compose by complex
+//! multiplication, the law of cosines gives the cosine directly and a square root the sine; so
+//! cylinder → joint → tip and back, the bucket's four-bar included, use only `+ − × ÷ √`. These are correctly
+//! rounded by IEEE 754: the host and the ECU compute the same bits.
+//!
+//! Frames: x forward, z up, counter-clockwise positive. Lengths are metres. Angles are radians and exist only at
+//! the edges ([`Rotor::from_angle`], [`Rotor::angle`]).
+//!
+//! Read in this order:
+//! 1. [`geometry`] — a machine's pins, validated once, every problem named by its field
+//!    ([`distances`] turns the papers' distances into pins);
+//! 2. [`triangle`] and [`four_bar`] — cylinder ↔ joint;
+//! 3. [`chain`] — joints ↔ tip and wrist;
+//! 4. [`machine`] — all of it together: [`Machine::cylinders_to_tip`], [`Machine::tip_to_cylinders`];
+//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices.
+//!
+//! ```
+//! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
+//! # fn main() -> Result<(), Box<dyn core::error::Error>> {
+//! let machine = Machine::<f32>::new(&PinGeometry::EXACT_MINI)?;
+//! let cylinders = Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 };
+//! let pose = machine.cylinders_to_tip(&cylinders, Rotor::IDENTITY)?;
+//! let back = machine.tip_to_cylinders(&pose.plane)?;
+//! assert!((back.arm - cylinders.arm).abs() < 1e-6);
+//! # Ok(())
+//! # }
+//! ```
+#![no_std]
+#![deny(unsafe_code)]
+// One exception, on the target alone: the hardware square root (`sqrt.rs`).
+#![cfg_attr(not(target_arch = "arm"), forbid(unsafe_code))]
+
+pub mod chain;
+pub mod distances;
+mod error;
+pub mod four_bar;
+pub mod geometry;
+pub mod machine;
+pub mod matrix;
+mod real;
+mod rotor;
+mod sqrt;
+pub mod swing;
+pub mod triangle;
+mod validate;
+pub mod world;
+
+pub use chain::{Joints, PlaneTip};
+pub use error::{Cylinder, PoseError};
+pub use geometry::{GeometryError, PinGeometry};
+pub use machine::{Cylinders, Machine, Pose, STROKE_TOLERANCE_M};
+pub use real::{Real, Split};
+pub use rotor::{Rotor, Vec2};

@@ -1,0 +1,235 @@
+//! The whole machine: cylinders ↔ joints ↔ tip, with stroke and assembly checks.
+
+use crate::chain::{Chain, Joints, PlaneTip};
+use crate::four_bar::{FourBar, Gap};
+use crate::geometry::{GeometryError, PinGeometry, Stroke};
+use crate::swing::SwingCylinder;
+use crate::triangle::{Side, Triangle};
+use crate::{Cylinder, PoseError, Real, Rotor};
+
+/// A length this close outside an end of the stroke counts as inside, m.
+pub const STROKE_TOLERANCE_M: f64 = 1e-6;
+
+/// Lengths of the three cylinders in the plane, between their pins, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinders<T> {
+    /// Boom cylinder.
+    pub boom: T,
+    /// Arm cylinder.
+    pub arm: T,
+    /// Bucket cylinder.
+    pub bucket: T,
+}
+
+/// A pose: joints, the tip in the plane, and the tip swung into the base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<T> {
+    /// θ1.
+    pub swing: Rotor<T>,
+    /// θ2, θ3, θ4.
+    pub joints: Joints<T>,
+    /// Reach, height, pitch in the plane.
+    pub plane: PlaneTip<T>,
+    /// Tip in the base frame, m: x forward at zero swing.
+    pub x: T,
+    /// y to the left.
+    pub y: T,
+}
+
+impl<T: Real> Pose<T> {
+    /// Tip height above the boom pin in the base frame, m.
+    #[inline(always)]
+    pub fn z(&self) -> T {
+        self.plane.height
+    }
+}
+
+/// The stroke in T, widened by the tolerance; the ends themselves for the excess.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StrokeCheck<T> {
+    lowest: T,
+    highest: T,
+    min: T,
+    max: T,
+}
+
+impl<T: Real> StrokeCheck<T> {
+    pub(crate) fn new(stroke: Stroke) -> Self {
+        Self {
+            lowest: T::from_f64(stroke.min_m - STROKE_TOLERANCE_M),
+            highest: T::from_f64(stroke.max_m + STROKE_TOLERANCE_M),
+            min: T::from_f64(stroke.min_m),
+            max: T::from_f64(stroke.max_m),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn check(&self, cylinder: Cylinder, length: T) -> Result<(), PoseError<T>> {
+        if length >= self.lowest && length <= self.highest { Ok(()) } else { Err(self.excess(cylinder, length)) }
+    }
+
+    #[cold]
+    fn excess(&self, cylinder: Cylinder, length: T) -> PoseError<T> {
+        let by = if length > self.max { length - self.max } else { length - self.min };
+        PoseError::OutOfStroke { cylinder, by }
+    }
+}
+
+/// All maps of one machine, their constants computed once in f64.
+#[derive(Clone, Copy, Debug)]
+pub struct Machine<T> {
+    boom: Triangle<T>,
+    arm: Triangle<T>,
+    bucket: FourBar<T>,
+    chain: Chain<T>,
+    strokes: [StrokeCheck<T>; 3],
+    swing: Option<SwingCylinder<T>>,
+}
+
+const ORDER: [Cylinder; 3] = [Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket];
+
+fn open<T>(cylinder: Cylinder) -> impl Fn(T) -> PoseError<T> {
+    move |by| PoseError::NoAssembly { cylinder, by }
+}
+
+fn bucket_open<T>(gap: Gap<T>) -> PoseError<T> {
+    PoseError::NoAssembly { cylinder: Cylinder::Bucket, by: gap.0 }
+}
+
+impl<T: Real> Machine<T> {
+    /// Validates the geometry and derives the constants.
+    ///
+    /// # Errors
+    /// The first problem of the geometry, named by its field.
+    pub fn new(geometry: &PinGeometry) -> Result<Self, GeometryError> {
+        geometry.validate()?;
+        let g = geometry;
+        Ok(Self {
+            boom: Triangle::new(g.boom.base, g.boom.rod, g.boom_cylinder.side(), 1.0),
+            arm: Triangle::new(g.arm_base_from_pin(), g.arm.rod, Side::Clockwise, 1.0),
+            bucket: g.four_bar(),
+            chain: Chain::new([g.boom_pin_x_m, g.boom_m, g.arm_m, g.bucket_m]),
+            strokes: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(StrokeCheck::new),
+            swing: g.swing.as_ref().map(SwingCylinder::from_pins),
+        })
+    }
+
+    /// The link chain, for maps between joints and tip alone.
+    pub fn chain(&self) -> &Chain<T> {
+        &self.chain
+    }
+
+    /// The swing cylinder, where the machine has one.
+    pub fn swing_cylinder(&self) -> Option<&SwingCylinder<T>> {
+        self.swing.as_ref()
+    }
+
+    /// Whether every length lies within its stroke.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`] for the first that does not, in the order boom, arm, bucket.
+    #[inline(always)]
+    pub fn check_strokes(&self, cylinders: &Cylinders<T>) -> Result<(), PoseError<T>> {
+        let lengths = [cylinders.boom, cylinders.arm, cylinders.bucket];
+        for ((check, cylinder), length) in self.strokes.iter().zip(ORDER).zip(lengths) {
+            check.check(cylinder, length)?;
+        }
+        Ok(())
+    }
+
+    /// Cylinders → joints where the linkages close, inside the stroke or not: Koivo 1994 (11), (13), (15)–(18),
+    /// Frankel 2003 `cyl_to_joint`.
+    ///
+    /// # Errors
+    /// [`PoseError::NoAssembly`] where they do not.
+    #[inline(always)]
+    pub fn cylinders_to_joints_any_stroke(&self, cylinders: &Cylinders<T>) -> Result<Joints<T>, PoseError<T>> {
+        Ok(Joints {
+            boom: self.boom.rotor(cylinders.boom).map_err(open(Cylinder::Boom))?,
+            arm: self.arm.rotor(cylinders.arm).map_err(open(Cylinder::Arm))?,
+            bucket: self.bucket.rotor(cylinders.bucket).map_err(bucket_open)?,
+        })
+    }
+
+    /// Cylinders → joints, strokes checked first.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
+    #[inline(always)]
+    pub fn cylinders_to_joints(&self, cylinders: &Cylinders<T>) -> Result<Joints<T>, PoseError<T>> {
+        self.check_strokes(cylinders)?;
+        self.cylinders_to_joints_any_stroke(cylinders)
+    }
+
+    /// Joints → cylinders, inside the stroke or not: Koivo 1994 (10), (12), (14), (29), Frankel 2003 `joint_to_cyl`.
+    ///
+    /// # Errors
+    /// [`PoseError::NoAssembly`] when the bucket's linkage does not close.
+    #[inline(always)]
+    pub fn joints_to_cylinders_any_stroke(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
+        Ok(Cylinders {
+            boom: self.boom.length(joints.boom),
+            arm: self.arm.length(joints.arm),
+            bucket: self.bucket.length(joints.bucket).map_err(bucket_open)?,
+        })
+    }
+
+    /// Joints → cylinders, strokes checked. A joint angle on the far side of a triangle, which no cylinder length
+    /// reaches, is an assembly error.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
+    #[inline(always)]
+    pub fn joints_to_cylinders(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
+        let cylinders = self.joints_to_cylinders_any_stroke(joints)?;
+        self.check_strokes(&cylinders)?;
+        Ok(cylinders)
+    }
+
+    /// Joints and swing → the full pose: Koivo 1994 (9).
+    #[inline(always)]
+    pub fn joints_to_tip(&self, joints: &Joints<T>, swing: Rotor<T>) -> Pose<T> {
+        let plane = self.chain.tip(joints);
+        Pose { swing, joints: *joints, plane, x: plane.reach * swing.cos, y: plane.reach * swing.sin }
+    }
+
+    /// Cylinders and swing → the full pose, strokes and assembly checked.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
+    #[inline(always)]
+    pub fn cylinders_to_tip(&self, cylinders: &Cylinders<T>, swing: Rotor<T>) -> Result<Pose<T>, PoseError<T>> {
+        Ok(self.joints_to_tip(&self.cylinders_to_joints(cylinders)?, swing))
+    }
+
+    /// The kernel of [`Machine::cylinders_to_tip`] without checks: not a number where a linkage does not close.
+    #[inline(always)]
+    pub fn cylinders_to_tip_unchecked(&self, cylinders: &Cylinders<T>, swing: Rotor<T>) -> Pose<T> {
+        let boom = self.boom.vector_unchecked(cylinders.boom);
+        let arm = self.arm.vector_unchecked(cylinders.arm);
+        let joints = Joints {
+            boom: Rotor { cos: boom.x, sin: boom.z },
+            arm: Rotor { cos: arm.x, sin: arm.z },
+            bucket: self.bucket.rotor_unchecked(cylinders.bucket),
+        };
+        self.joints_to_tip(&joints, swing)
+    }
+
+    /// Tip in the plane → joints; Koivo 1994 (23)–(28), Frankel 2003 `Rdisp`.
+    ///
+    /// # Errors
+    /// [`PoseError::Unreachable`].
+    #[inline(always)]
+    pub fn tip_to_joints(&self, tip: &PlaneTip<T>) -> Result<Joints<T>, PoseError<T>> {
+        self.chain.joints(tip)
+    }
+
+    /// Tip in the plane → cylinders, strokes checked.
+    ///
+    /// # Errors
+    /// [`PoseError::Unreachable`], [`PoseError::NoAssembly`], [`PoseError::OutOfStroke`].
+    #[inline(always)]
+    pub fn tip_to_cylinders(&self, tip: &PlaneTip<T>) -> Result<Cylinders<T>, PoseError<T>> {
+        self.joints_to_cylinders(&self.chain.joints(tip)?)
+    }
+}

@@ -1,0 +1,54 @@
+//! Swing θ1: an angle sensor ([`Rotor::from_turns`]) or a backhoe's swing cylinder, and the plane it turns.
+
+use crate::geometry::SwingPins;
+use crate::machine::StrokeCheck;
+use crate::triangle::{Side, Triangle};
+use crate::{Cylinder, PlaneTip, PoseError, Real, Rotor};
+
+/// The swing cylinder's triangle, seen from above: Frankel 2003 (1)–(4).
+#[derive(Clone, Copy, Debug)]
+pub struct SwingCylinder<T> {
+    triangle: Triangle<T>,
+    stroke: StrokeCheck<T>,
+}
+
+impl<T: Real> SwingCylinder<T> {
+    pub(crate) fn from_pins(pins: &SwingPins) -> Self {
+        Self {
+            triangle: Triangle::new(pins.base, pins.rod, Side::CounterClockwise, 1.0),
+            stroke: StrokeCheck::new(pins.stroke),
+        }
+    }
+
+    /// Cylinder length [m] → rotor of θ1.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`] of the swing cylinder.
+    #[inline]
+    pub fn rotor(&self, length: T) -> Result<Rotor<T>, PoseError<T>> {
+        self.stroke.check(Cylinder::Swing, length)?;
+        self.triangle.rotor(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
+    }
+
+    /// Rotor of θ1 → cylinder length [m].
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`] of the swing cylinder.
+    #[inline]
+    pub fn length(&self, swing: Rotor<T>) -> Result<T, PoseError<T>> {
+        let length = self.triangle.length(swing);
+        self.stroke.check(Cylinder::Swing, length)?;
+        Ok(length)
+    }
+}
+
+/// A point in the base frame → swing rotor and plane tip, the tip in front of the axis: Koivo 1994 (23) with its branch named.
+///
+/// # Errors
+/// [`PoseError::Unreachable`] for a point on the swing axis, where the swing is undefined.
+pub fn plane_through<T: Real>(x: T, y: T, z: T, pitch: Rotor<T>) -> Result<(Rotor<T>, PlaneTip<T>), PoseError<T>> {
+    let radial = crate::Vec2::new(x, y);
+    let swing = radial.direction().ok_or(PoseError::Unreachable { by: -radial.norm() })?;
+    let tip = PlaneTip { reach: radial.norm(), height: z, pitch };
+    Ok((swing, tip))
+}

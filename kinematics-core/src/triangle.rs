@@ -1,0 +1,122 @@
+//! The triangle of two fixed sides and a cylinder: boom, arm, swing cylinder, and the bucket's rocker.
+//!
+//! With sides a, b and cylinder length L, the angle α between a and b has
+//! `cos α = (u − v)/4ab` and `sin α = 2√(uv)/4ab`, where `u = (a+b)² − L²`, `v = L² − (a−b)²`, `u + v = 4ab`:
+//! Koivo 1994 (10)–(13), Frankel 2003 (7), (9) without an angle. u and v are products of sums, so the relative accuracy
+//! survives near the dead points (α = 0, π), where `√(1 − cos²)` loses it; the constant sums are stored as
+//! hi + lo, for the same reason.
+
+use crate::{Real, Rotor, Split, Vec2};
+
+/// On which side of the fixed pin's direction the moving pin lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The joint turns counter-clockwise as the cylinder extends.
+    CounterClockwise,
+    /// The joint turns clockwise as the cylinder extends.
+    Clockwise,
+}
+
+/// A joint moved by a cylinder between a fixed and a moving pin.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle<T> {
+    /// a + b
+    sum: Split<T>,
+    /// |a − b|
+    difference: Split<T>,
+    /// The joint's vector is (u − v)·straight + √(uv)·across, times the length given to [`Triangle::new`].
+    straight: Vec2<T>,
+    across: Vec2<T>,
+    /// a² + b², and −2ab times the constant rotor's parts: L² = squares + cos θ·back.x + sin θ·back.z
+    squares: T,
+    back: Vec2<T>,
+}
+
+/// Forward and inverse constants of one triangle in f64, before they are rounded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sides {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+}
+
+impl Sides {
+    pub(crate) fn closed_by(self, length: f64) -> bool {
+        let difference = if self.a > self.b { self.a - self.b } else { self.b - self.a };
+        length > difference && length < self.a + self.b
+    }
+}
+
+impl<T: Real> Triangle<T> {
+    /// The triangle with `fixed` (from the joint's pin to the cylinder's base, in the fixed link's frame) and
+    /// `moving` (to the rod eye, in the moving link's frame); metres. The joint's rotor comes out multiplied by
+    /// `scale` in the forward map. Both vectors must be non-zero: `PinGeometry::validate` sees to it.
+    pub fn new(fixed: Vec2<f64>, moving: Vec2<f64>, side: Side, scale: f64) -> Self {
+        let (a, b) = (fixed.norm(), moving.norm());
+        let four_ab = 4.0 * a * b;
+        let sigma = match side {
+            Side::CounterClockwise => 1.0,
+            Side::Clockwise => -1.0,
+        };
+        // moving·rotor(θ) = |moving|/|fixed| · fixed · rotor(σα), hence rotor(θ) = rotor(σα) · fixed·conj(moving)/ab.
+        let offset = fixed.complex_mul(moving.conjugate()).scale(1.0 / (a * b));
+        let straight = offset.scale(scale / four_ab);
+        let across = Vec2::new(-offset.z, offset.x).scale(sigma * 2.0 * scale / four_ab);
+        let back = offset.scale(-2.0 * a * b);
+        let round = |v: Vec2<f64>| Vec2::new(T::from_f64(v.x), T::from_f64(v.z));
+        Self {
+            sum: T::split(a + b),
+            difference: T::split(if a > b { a - b } else { b - a }),
+            straight: round(straight),
+            across: round(across),
+            squares: T::from_f64(a * a + b * b),
+            back: round(back),
+        }
+    }
+
+    /// Cylinder length [m] → the joint's rotor times the scale, or by how much the triangle fails to close [m].
+    #[inline(always)]
+    pub fn vector(&self, length: T) -> Result<Vec2<T>, T> {
+        let (u, v) = self.products(length);
+        let product = u * v;
+        if product >= T::ZERO { Ok(self.assemble(u, v, product)) } else { Err(self.gap(length)) }
+    }
+
+    /// [`Triangle::vector`] without the check: not a number where the triangle does not close.
+    #[inline(always)]
+    pub fn vector_unchecked(&self, length: T) -> Vec2<T> {
+        let (u, v) = self.products(length);
+        self.assemble(u, v, u * v)
+    }
+
+    /// [`Triangle::vector`] as a rotor, for a scale of one.
+    #[inline(always)]
+    pub fn rotor(&self, length: T) -> Result<Rotor<T>, T> {
+        self.vector(length).map(|v| Rotor { cos: v.x, sin: v.z })
+    }
+
+    /// Rotor → cylinder length [m]. The root cannot fail: |a − b| ≤ L by construction, up to rounding.
+    #[inline(always)]
+    pub fn length(&self, rotor: Rotor<T>) -> T {
+        let square = self.squares + (rotor.cos * self.back.x + rotor.sin * self.back.z);
+        if square > T::ZERO { square.sqrt() } else { T::ZERO }
+    }
+
+    #[inline(always)]
+    fn products(&self, length: T) -> (T, T) {
+        let u = self.sum.minus(length) * self.sum.plus(length);
+        // (L − d)(L + d) = −(d − L)(d + L)
+        let v = -(self.difference.minus(length) * self.difference.plus(length));
+        (u, v)
+    }
+
+    #[inline(always)]
+    fn assemble(&self, u: T, v: T, product: T) -> Vec2<T> {
+        self.straight.scale(u - v) + self.across.scale(product.sqrt())
+    }
+
+    #[cold]
+    fn gap(&self, length: T) -> T {
+        let over = -self.sum.minus(length);
+        if over > T::ZERO { over } else { self.difference.minus(length) }
+    }
+}
