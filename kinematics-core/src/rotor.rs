@@ -65,7 +65,7 @@ impl<T: Real> Vec2<T> {
     /// The direction of this vector; `None` for the zero vector or one that is not finite.
     pub fn direction(self) -> Option<Rotor<T>> {
         let norm = self.norm();
-        if norm > T::ZERO && norm - norm == T::ZERO {
+        if norm > T::ZERO && norm * T::ZERO == T::ZERO {
             Some(Rotor { cos: self.x / norm, sin: self.z / norm })
         } else {
             None
