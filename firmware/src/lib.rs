@@ -1,3 +1,38 @@
-//! The excavator control application.
+//! The excavator's control application: sensor codes in, coil currents out, a thousand times a second.
+//!
+//! [`Ecu::tick`] is all of it: deterministic, without clock, I/O or allocation, infallible once built. It is one straight
+//! pipeline; each stage has a configuration built once from [`Parameters`] and a small state, and hands on one value:
+//!
+//! ```text
+//! Inputs → sensing → pose → command → motion → valve → Outputs
+//!              the supervisor watches every stage and alone opens the gate between motion and valve
+//! ```
+//!
+//! The images under `src/bin` and the desktop harness are thin callers of it.
 #![no_std]
 #![forbid(unsafe_code)]
+
+pub mod command;
+pub mod dig;
+mod ecu;
+pub mod frame;
+pub mod io;
+pub mod link;
+pub mod motion;
+pub mod parameters;
+pub mod pose;
+pub mod sensing;
+pub mod supervisor;
+pub mod travel;
+pub mod valve;
+
+pub use ecu::Ecu;
+pub use io::{Inputs, Outputs, Request};
+pub use parameters::{ParameterError, Parameters};
+pub use supervisor::{Fault, State};
+
+/// The control period, s.
+pub const TICK_S: f32 = 0.001;
+
+/// Ticks a second.
+pub const TICKS_PER_S: u32 = 1000;

@@ -7,6 +7,7 @@ use crate::triangle::Side;
 
 /// A cylinder's shortest and longest length between its pins, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stroke {
     /// Fully retracted.
     pub min_m: f64,
@@ -16,6 +17,7 @@ pub struct Stroke {
 
 /// Two pins and a stroke: the boom's or the arm's cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CylinderPins {
     /// Cylinder base, in the frame of the link that carries it (A: body frame at the boom pin; C: boom frame at the boom pin).
     pub base: Vec2<f64>,
@@ -27,6 +29,7 @@ pub struct CylinderPins {
 
 /// The bucket's cylinder and four-bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BucketPins {
     /// E, cylinder base in the arm frame.
     pub base: Vec2<f64>,
@@ -44,6 +47,7 @@ pub struct BucketPins {
 
 /// A backhoe's swing cylinder: seen from above, its base and its rod eye about the swing axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SwingPins {
     /// Cylinder base in the base frame, (x, y).
     pub base: Vec2<f64>,
@@ -55,6 +59,7 @@ pub struct SwingPins {
 
 /// Where the boom cylinder stands; the pins alone do not tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BoomCylinder {
     /// Below the boom pin: extending raises the boom (most excavators).
     Below,
@@ -74,6 +79,7 @@ impl BoomCylinder {
 /// Everything the maps need of a machine. Frames sit at each link's own pin, x along the link, z up (DH frames of
 /// Koivo 1994 Table 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PinGeometry {
     /// a1, boom pin's forward distance from the swing axis (may be negative), m.
     pub boom_pin_x_m: f64,

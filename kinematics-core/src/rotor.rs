@@ -6,6 +6,7 @@ use crate::Real;
 
 /// A vector in a plane frame: x along the frame's first axis, z along its second. Metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vec2<T> {
     /// First component.
     pub x: T,

@@ -1,0 +1,103 @@
+//! The whole application: one tick from inputs to outputs.
+
+use kinematics_core::{Cylinders, Machine, Pose};
+
+use crate::command::{Command, Intent};
+use crate::dig::Dig;
+use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs};
+use crate::motion::{Motion, Wanted};
+use crate::parameters::{ParameterError, Parameters};
+use crate::pose::pose;
+use crate::sensing::Sensing;
+use crate::supervisor::{Fault, Gate, State, Supervisor, Watched};
+use crate::travel::first_violation;
+use crate::valve::Valve;
+
+/// The controller: stages, the supervisor, and the last valid pose.
+#[derive(Clone, Debug)]
+pub struct Ecu {
+    machine: Machine<f32>,
+    sensing: Sensing,
+    command: Command,
+    motion: Motion,
+    supervisor: Supervisor,
+    valve: Valve,
+    tick: u32,
+    lengths: Cylinders<f32>,
+    pose: Pose<f32>,
+}
+
+impl Ecu {
+    /// Validates the parameters, the dig's travel included, and builds every stage.
+    ///
+    /// # Errors
+    /// The first parameter at fault, by name and range, or the dig's first violation.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let p = parameters;
+        p.validate()?;
+        let machine = Machine::new(&p.geometry)?;
+        let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, p.supply.full_scale_v, &machine)
+            .ok_or(ParameterError::NoSwingCylinder)?;
+        let dig = Dig::new(&p.dig);
+        if let Some(violation) = first_violation(&machine, &dig) {
+            return Err(ParameterError::Dig(violation));
+        }
+        Ok(Self {
+            machine,
+            sensing,
+            command: Command::new(p.command_timeout_ticks),
+            motion: Motion::new(&p.motion, dig),
+            supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
+            valve: Valve::new(&p.valves, &p.coil),
+            tick: 0,
+            lengths: NO_LENGTHS,
+            pose: NO_POSE,
+        })
+    }
+
+    /// One control period: everything from the sensors' codes to the coils' duties.
+    pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
+        let supply_v = self.sensing.supply_v(inputs);
+        let intent = self.command.read(inputs);
+
+        let wanted = self.sense_and_follow(inputs, &intent);
+        let watched = Watched { intent, supply_v, stage_fault: wanted.err() };
+        let gate = self.supervisor.judge(inputs, &watched);
+
+        let mut wanted = wanted.unwrap_or(Wanted { speeds: NO_LENGTHS, reference: self.lengths, dig_tick: 0 });
+        if gate == Gate::Closed {
+            wanted.speeds = NO_LENGTHS;
+        }
+        let coils = self.valve.drive(gate, &wanted.speeds, supply_v);
+        let outputs = Outputs {
+            tick: self.tick,
+            state: self.supervisor.state(),
+            fault: self.supervisor.fault(),
+            cut_off_closed: gate == Gate::Open,
+            pose_valid: !matches!(watched.stage_fault, Some(Fault::Sensor(_) | Fault::Geometry)),
+            lengths: self.lengths,
+            pose: self.pose,
+            dig_tick: wanted.dig_tick,
+            reference: wanted.reference,
+            speeds: wanted.speeds,
+            currents: coils.currents,
+            duties: coils.duties,
+        };
+        self.tick = self.tick.wrapping_add(1);
+        outputs
+    }
+
+    /// Sensing → pose → motion; the first stage at fault ends it.
+    fn sense_and_follow(&mut self, inputs: &Inputs, intent: &Intent) -> Result<Wanted, Fault> {
+        let running = self.supervisor.state() == State::Running;
+        let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
+            let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
+            (self.lengths, self.pose) = (sensed.lengths, pose);
+            self.motion.follow(&self.machine, running, intent, &sensed.lengths)
+        });
+        if result.is_err() {
+            self.motion.reset();
+        }
+        result
+    }
+}

@@ -1,0 +1,80 @@
+//! What the application reads and what it drives, each tick.
+
+use kinematics_core::{Cylinders, Pose, Rotor};
+
+use crate::supervisor::{Fault, State};
+
+/// The four spools and their position sensors, in the order of every array here.
+pub const SPOOLS: [&str; 4] = ["swing", "boom", "arm", "bucket"];
+
+/// What the operator asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Levers in neutral: hold still.
+    Neutral,
+    /// Follow the dig trajectory.
+    Dig,
+}
+
+/// Everything that enters a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inputs {
+    /// Position sensors' ADC codes: swing, boom, arm, bucket.
+    pub codes: [u16; 4],
+    /// Supply voltage's ADC code.
+    pub supply_code: u16,
+    /// The operator's command counts up with every message, so that a frozen sender shows.
+    pub command_counter: u8,
+    /// What the operator asks for.
+    pub request: Request,
+    /// The enable switch.
+    pub enable: bool,
+    /// The emergency stop is pressed.
+    pub emergency_stop: bool,
+    /// The previous tick did not finish in time; measured by the board, an input here to keep ticks reproducible.
+    pub overrun: bool,
+}
+
+/// One spool's two solenoids: \[extend, retract\].
+pub type Solenoids<T> = [T; 2];
+
+/// Everything that leaves a tick. Nothing measured on the board is in here, so host and ECU agree bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs {
+    /// Ticks since construction.
+    pub tick: u32,
+    /// The supervisor's state.
+    pub state: State,
+    /// The latched fault.
+    pub fault: Option<Fault>,
+    /// The master cut-off is closed, so that current can flow.
+    pub cut_off_closed: bool,
+    /// The pose of this tick is valid; otherwise `pose` and `lengths` are the last valid ones.
+    pub pose_valid: bool,
+    /// Measured cylinder lengths, m.
+    pub lengths: Cylinders<f32>,
+    /// Bucket pose from them.
+    pub pose: Pose<f32>,
+    /// Ticks since the dig began, 0 when not digging.
+    pub dig_tick: u32,
+    /// Reference cylinder lengths of this tick, m; the measured ones when not digging.
+    pub reference: Cylinders<f32>,
+    /// Cylinder speeds that passed the gate, m/s, extending positive.
+    pub speeds: Cylinders<f32>,
+    /// Coil currents, A, a spool each.
+    pub currents: [Solenoids<f32>; 4],
+    /// PWM duties, 65535 is always on, a spool each.
+    pub duties: [Solenoids<u16>; 4],
+}
+
+/// The pose before the first valid one: everything level and zero, never used for motion.
+pub(crate) const NO_POSE: Pose<f32> = Pose {
+    swing: Rotor::IDENTITY,
+    joints: kinematics_core::Joints { boom: Rotor::IDENTITY, arm: Rotor::IDENTITY, bucket: Rotor::IDENTITY },
+    plane: kinematics_core::PlaneTip { reach: 0.0, height: 0.0, pitch: Rotor::IDENTITY },
+    x: 0.0,
+    y: 0.0,
+};
+
+/// All lengths zero.
+pub(crate) const NO_LENGTHS: Cylinders<f32> = Cylinders { boom: 0.0, arm: 0.0, bucket: 0.0 };

@@ -1,0 +1,23 @@
+//! The conversation between the emulated image and the harness.
+//!
+//! ```text
+//! harness → image   u32 length, parameter record (postcard)
+//! image → harness   u32 length, text of the error; length 0: ready
+//! each tick:
+//! harness → image   KIND_TICK, Inputs             (or KIND_END and padding)
+//! image → harness   Outputs, u32 start of the tick [ns of virtual time], u32 instructions of `Ecu::tick`
+//! at the end:
+//! image → harness   u32 deepest use of the stack, bytes
+//! ```
+//! What is measured travels beside the outputs, never in them.
+
+use crate::frame::OUTPUT_BYTES;
+
+/// First byte of a message that asks for a tick.
+pub const KIND_TICK: u8 = 1;
+/// First byte of the message that ends the run.
+pub const KIND_END: u8 = 0;
+/// Room for a parameter record, bytes.
+pub const RECORD_BYTES: usize = 1024;
+/// Outputs and the two measurements, bytes.
+pub const REPLY_BYTES: usize = OUTPUT_BYTES + 8;

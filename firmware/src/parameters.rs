@@ -1,0 +1,232 @@
+//! Everything the application needs to know of a machine, in one record, validated once.
+
+use core::fmt;
+
+use kinematics_core::geometry::Stroke;
+use kinematics_core::{GeometryError, PinGeometry};
+use serde::{Deserialize, Serialize};
+
+use crate::dig::DigParameters;
+use crate::travel::Violation;
+
+/// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PositionSensor {
+    /// The cylinder's stroke between its pins, m.
+    pub stroke: Stroke,
+    /// Code at the shortest length.
+    pub min_code: u16,
+    /// Code at the longest length.
+    pub max_code: u16,
+    /// Codes this far beyond either end still count as that end.
+    pub tolerance_codes: u16,
+}
+
+/// How the swing is read.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum SwingSensor {
+    /// An encoder on the swing axis, 65536 codes a turn, counting counter-clockwise.
+    Angle {
+        /// Code at θ1 = 0.
+        zero_code: u16,
+    },
+    /// The swing cylinder's position sensor.
+    Cylinder(PositionSensor),
+}
+
+/// One direction of a spool.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValveDirection {
+    /// Fraction of the full-scale current below which nothing moves.
+    pub dead_band: f32,
+    /// Cylinder speed at full scale, m/s.
+    pub full_speed_mps: f32,
+}
+
+/// The solenoids, all alike.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coil {
+    /// Full-scale current, A.
+    pub full_scale_a: f32,
+    /// Winding resistance, Ω.
+    pub resistance_ohm: f32,
+}
+
+/// Supply measurement and limits.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Supply {
+    /// Voltage at code 65535, V.
+    pub full_scale_v: f32,
+    /// Lowest voltage to work at, V.
+    pub min_v: f32,
+    /// Highest voltage to work at, V.
+    pub max_v: f32,
+}
+
+/// The motion stage's tuning.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionParameters {
+    /// How far ahead the feed-forward looks: the valve's dead time and lag, s.
+    pub preview_s: f32,
+    /// Proportional gain on each cylinder's error, 1/s.
+    pub gain_per_s: f32,
+    /// Speeds below this are zero, m/s.
+    pub smallest_speed_mps: f32,
+    /// How near each cylinder must be to the dig's start, m.
+    pub start_tolerance_m: f32,
+    /// How far each cylinder may stray from its reference, m.
+    pub following_error_m: f32,
+}
+
+/// The parameter record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameters {
+    /// The machine's pins.
+    pub geometry: PinGeometry,
+    /// How the swing is read.
+    pub swing_sensor: SwingSensor,
+    /// Boom, arm, bucket.
+    pub cylinder_sensors: [PositionSensor; 3],
+    /// Boom, arm, bucket: \[extend, retract\].
+    pub valves: [[ValveDirection; 2]; 3],
+    /// Solenoids.
+    pub coil: Coil,
+    /// Supply.
+    pub supply: Supply,
+    /// Ticks without a new command after which it is stale.
+    pub command_timeout_ticks: u16,
+    /// Motion.
+    pub motion: MotionParameters,
+    /// The dig.
+    pub dig: DigParameters,
+}
+
+/// What is wrong with a parameter record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParameterError {
+    /// The geometry, by field.
+    Geometry(GeometryError),
+    /// A value outside its range.
+    OutOfRange {
+        /// The field.
+        field: &'static str,
+        /// What it holds.
+        value: f64,
+        /// Lowest and highest allowed.
+        range: [f64; 2],
+    },
+    /// Two values in the wrong order: the first must be below the second.
+    Order {
+        /// The field that must be smaller.
+        below: &'static str,
+        /// The field that must be larger.
+        above: &'static str,
+    },
+    /// The swing sensor reads a cylinder, but the geometry has none.
+    NoSwingCylinder,
+    /// The dig leaves reach or stroke.
+    Dig(Violation<f32>),
+}
+
+impl From<GeometryError> for ParameterError {
+    fn from(error: GeometryError) -> Self {
+        Self::Geometry(error)
+    }
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Geometry(error) => error.fmt(f),
+            Self::OutOfRange { field, value, range: [low, high] } => {
+                write!(f, "`{field}` is {value} but must be within {low}…{high}")
+            }
+            Self::Order { below, above } => write!(f, "`{below}` must be below `{above}`"),
+            Self::NoSwingCylinder => {
+                f.write_str("`swing_sensor` reads a swing cylinder, but the geometry has no `swing` pins")
+            }
+            Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for ParameterError {}
+
+fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
+    let [low, high] = range;
+    // Written so that NaN fails.
+    if value >= low && value <= high { Ok(()) } else { Err(ParameterError::OutOfRange { field, value, range }) }
+}
+
+fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
+    if below.1 < above.1 { Ok(()) } else { Err(ParameterError::Order { below: below.0, above: above.0 }) }
+}
+
+impl PositionSensor {
+    fn validate(&self) -> Result<(), ParameterError> {
+        // A stroke over fewer codes would read coarser than a tenth of a per mille.
+        ordered(("sensor.min_code", f64::from(self.min_code) + 9999.0), ("sensor.max_code", f64::from(self.max_code)))?;
+        // Some codes must be left to mean a broken wire.
+        let room = self.min_code.min(u16::MAX - self.max_code);
+        within("sensor.tolerance_codes", f64::from(self.tolerance_codes), [0.0, f64::from(room.saturating_sub(1))])
+    }
+}
+
+impl Parameters {
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// The first at fault, by name and range. The dig's travel is checked when the application is built.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        self.geometry.validate()?;
+        if let SwingSensor::Cylinder(sensor) = &self.swing_sensor {
+            sensor.validate()?;
+        }
+        self.cylinder_sensors.iter().try_for_each(PositionSensor::validate)?;
+        for direction in self.valves.iter().flatten() {
+            within("valve.dead_band", direction.dead_band.into(), [0.0, 0.9])?;
+            within("valve.full_speed_mps", direction.full_speed_mps.into(), [0.001, 5.0])?;
+        }
+        within("coil.full_scale_a", self.coil.full_scale_a.into(), [0.05, 5.0])?;
+        within("coil.resistance_ohm", self.coil.resistance_ohm.into(), [0.5, 100.0])?;
+        within("supply.full_scale_v", self.supply.full_scale_v.into(), [10.0, 100.0])?;
+        within("supply.min_v", self.supply.min_v.into(), [6.0, 60.0])?;
+        within("supply.max_v", self.supply.max_v.into(), [6.0, 60.0])?;
+        ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
+        within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
+        self.motion.validate()?;
+        self.dig.validate()
+    }
+}
+
+impl MotionParameters {
+    fn validate(&self) -> Result<(), ParameterError> {
+        within("motion.preview_s", self.preview_s.into(), [0.0, 1.0])?;
+        within("motion.gain_per_s", self.gain_per_s.into(), [0.0, 20.0])?;
+        within("motion.smallest_speed_mps", self.smallest_speed_mps.into(), [0.0, 0.1])?;
+        within("motion.start_tolerance_m", self.start_tolerance_m.into(), [0.001, 0.5])?;
+        within("motion.following_error_m", self.following_error_m.into(), [0.001, 0.5])
+    }
+}
+
+impl DigParameters {
+    fn validate(&self) -> Result<(), ParameterError> {
+        let far = [-50.0, 50.0];
+        within("dig.start_x_m", self.start_x_m, far)?;
+        within("dig.start_z_m", self.start_z_m, far)?;
+        within("dig.ground_z_m", self.ground_z_m, far)?;
+        within("dig.reach_m", self.reach_m, [0.01, 50.0])?;
+        within("dig.plunge_m", self.plunge_m, [0.01, 50.0])?;
+        within("dig.scoop_radius_m", self.scoop_radius_m, [0.01, 50.0])?;
+        within("dig.scoop_end_deg", self.scoop_end_deg, [-360.0, 360.0])?;
+        for pitch in self.pitch_deg {
+            within("dig.pitch_deg", pitch, [-720.0, 720.0])?;
+        }
+        let [reached, plunged, end] = self.until_s;
+        within("dig.until_s", end, [0.1, 600.0])?;
+        ordered(("dig.until_s[0]", reached), ("dig.until_s[1]", plunged))?;
+        ordered(("dig.until_s[1]", plunged), ("dig.until_s[2]", end))?;
+        within("dig.hold_lead_s", self.hold_lead_s, [0.0, reached])?;
+        ordered(("0", 0.0), ("dig.until_s[0]", reached))
+    }
+}

@@ -1,0 +1,120 @@
+//! First stage: ADC codes → cylinder lengths and swing, each valid or not.
+
+use kinematics_core::swing::SwingCylinder;
+use kinematics_core::{Cylinder, Cylinders, Machine, Rotor};
+
+use crate::io::Inputs;
+use crate::parameters::{PositionSensor, SwingSensor};
+
+/// One cylinder's sensor: the stroke lies linearly between two codes.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    first_valid: u16,
+    last_valid: u16,
+    min_code: f32,
+    metres_per_code: f32,
+    min_m: f32,
+    max_m: f32,
+}
+
+impl Scale {
+    fn new(sensor: &PositionSensor) -> Self {
+        let span = f64::from(sensor.max_code) - f64::from(sensor.min_code);
+        Self {
+            first_valid: sensor.min_code.saturating_sub(sensor.tolerance_codes),
+            last_valid: sensor.max_code.saturating_add(sensor.tolerance_codes),
+            min_code: f32::from(sensor.min_code),
+            metres_per_code: ((sensor.stroke.max_m - sensor.stroke.min_m) / span) as f32,
+            min_m: sensor.stroke.min_m as f32,
+            max_m: sensor.stroke.max_m as f32,
+        }
+    }
+
+    /// Length [m]; `None` outside the valid codes. Valid codes beyond an end of the stroke (noise at the stop) mean that end.
+    fn length(&self, code: u16) -> Option<f32> {
+        if code < self.first_valid || code > self.last_valid {
+            return None;
+        }
+        let length = self.min_m + (f32::from(code) - self.min_code) * self.metres_per_code;
+        Some(length.clamp(self.min_m, self.max_m))
+    }
+}
+
+/// How the swing is read.
+#[derive(Clone, Copy, Debug)]
+enum SwingScale {
+    Angle { zero_code: u16 },
+    Cylinder { scale: Scale, cylinder: SwingCylinder<f32> },
+}
+
+/// What the sensors say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    /// Swing θ1.
+    pub swing: Rotor<f32>,
+    /// Cylinder lengths, m.
+    pub lengths: Cylinders<f32>,
+    /// Supply voltage, V.
+    pub supply_v: f32,
+}
+
+/// The sensing stage.
+#[derive(Clone, Copy, Debug)]
+pub struct Sensing {
+    swing: SwingScale,
+    cylinders: [Scale; 3],
+    volts_per_code: f32,
+}
+
+impl Sensing {
+    pub(crate) fn new(
+        swing: &SwingSensor,
+        cylinders: &[PositionSensor; 3],
+        supply_full_scale_v: f32,
+        machine: &Machine<f32>,
+    ) -> Option<Self> {
+        let swing = match swing {
+            SwingSensor::Angle { zero_code } => SwingScale::Angle { zero_code: *zero_code },
+            SwingSensor::Cylinder(sensor) => {
+                SwingScale::Cylinder { scale: Scale::new(sensor), cylinder: *machine.swing_cylinder()? }
+            }
+        };
+        let [boom, arm, bucket] = cylinders;
+        Some(Self {
+            swing,
+            cylinders: [Scale::new(boom), Scale::new(arm), Scale::new(bucket)],
+            volts_per_code: supply_full_scale_v / 65535.0,
+        })
+    }
+
+    /// Supply voltage, V: valid whatever the other sensors say.
+    pub fn supply_v(&self, inputs: &Inputs) -> f32 {
+        f32::from(inputs.supply_code) * self.volts_per_code
+    }
+
+    /// All sensors, or the first whose code is outside its range: no sensor's good value makes up for another's.
+    ///
+    /// # Errors
+    /// The sensor at fault.
+    pub fn read(&self, inputs: &Inputs) -> Result<Sensed, Cylinder> {
+        let [swing_code, boom_code, arm_code, bucket_code] = inputs.codes;
+        let [boom, arm, bucket] = &self.cylinders;
+        let lengths = Cylinders {
+            boom: boom.length(boom_code).ok_or(Cylinder::Boom)?,
+            arm: arm.length(arm_code).ok_or(Cylinder::Arm)?,
+            bucket: bucket.length(bucket_code).ok_or(Cylinder::Bucket)?,
+        };
+        let swing = match &self.swing {
+            // 65536 codes are one turn; the difference wraps as the angle does.
+            SwingScale::Angle { zero_code } => {
+                let codes = swing_code.wrapping_sub(*zero_code) as i16;
+                Rotor::from_turns(f32::from(codes) * (1.0 / 65536.0))
+            }
+            SwingScale::Cylinder { scale, cylinder } => {
+                let length = scale.length(swing_code).ok_or(Cylinder::Swing)?;
+                cylinder.rotor(length).map_err(|_| Cylinder::Swing)?
+            }
+        };
+        Ok(Sensed { swing, lengths, supply_v: self.supply_v(inputs) })
+    }
+}
