@@ -1,0 +1,36 @@
+//! The `hil` command: one module a subcommand.
+
+pub mod bench;
+mod progress;
+pub mod run;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Desktop harness of the excavator controller.
+#[derive(Debug, Parser)]
+#[command(name = "hil", version, about)]
+struct Hil {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scenario on the host or on the emulated ECU, and report it
+    Run(run::RunArgs),
+    /// Print instruction counts of the maps and of the tick on the emulated ECU
+    Bench(bench::BenchArgs),
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    match Hil::try_parse_from(&arguments) {
+        Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
+        Err(error) => error.exit(),
+    }
+}

@@ -1,0 +1,44 @@
+//! The short table after a run.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::run::Summary;
+
+/// The summary as a table for people, and where the report is.
+pub fn table(summary: &Summary, folder: &Path) -> String {
+    let mut out = format!("{} on the {} ({}, seed {})\n", summary.scenario, summary.on, summary.machine, summary.seed);
+    let mut row = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  {name:<24} {value}");
+    };
+    row("ticks", summary.ticks.to_string());
+    if let Some(hash) = &summary.output_hash {
+        row("output hash", hash.clone());
+        row("dig completed", if summary.dig_completed { "yes" } else { "no" }.to_owned());
+    }
+    if let (Some(rms), Some(max)) = (summary.tip_error_rms_m, summary.tip_error_max_m) {
+        row("tip error", format!("{:.1} mm RMS, {:.1} mm max", rms * 1e3, max * 1e3));
+    }
+    if let Some(factor) = summary.real_time_factor {
+        row("speed", format!("{factor:.0} × real time"));
+    }
+    if let Some(e) = &summary.emulator {
+        let counts = e.instructions_per_tick;
+        row("instructions per tick", format!("{} median, {} max", counts.median, counts.max));
+        row("tick period jitter", format!("{} ns", e.tick_period_jitter_ns));
+        row("stack", format!("{} bytes at its deepest", e.stack_peak_bytes));
+        row("image", format!("{} bytes flash, {} bytes static RAM", e.flash_bytes, e.ram_bytes));
+    }
+    for violation in summary.refused.iter().flatten() {
+        row("outside travel limits", violation.to_string());
+    }
+    for fault in summary.faults.iter().flatten() {
+        row("FAULT", format!("{} (code {}) at {:.3} s", fault.fault, fault.code, fault.at_s));
+    }
+    for hit in summary.stop_hits.iter().flatten() {
+        row("STOP HIT", format!("{} at {:.3} s", hit.cylinder, hit.at_s));
+    }
+    row("report", folder.display().to_string());
+    out
+}

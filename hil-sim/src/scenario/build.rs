@@ -1,0 +1,108 @@
+//! From a checked file to what a run needs: the controller's parameters and the plant.
+
+use firmware::Parameters;
+use firmware::dig::DigParameters;
+use firmware::parameters::{Coil, MotionParameters, PositionSensor, Supply, SwingSensor, ValveDirection};
+use kinematics_core::geometry::Stroke;
+
+use super::file::{self, Reading, ScenarioFile};
+use super::{Events, Scenario};
+use crate::machine_file::MachineFile;
+use crate::plant::{CoilModel, CylinderModel};
+
+/// Codes at the ends of a stroke: 0.5 V and 9.5 V of a 10 V converter, so that an open or shorted wire shows.
+const END_CODES: [u16; 2] = [3277, 62258];
+/// 0.25 V beyond either end is still an end.
+const TOLERANCE_CODES: u16 = 1638;
+/// Angle encoders point forward at half scale.
+const ZERO_CODE: u16 = 32768;
+/// The supply's divider: code 65535 at 40 V.
+const SUPPLY_FULL_SCALE_V: f32 = 40.0;
+/// The controller works between these, V.
+const SUPPLY_RANGE_V: [f32; 2] = [9.0, 32.0];
+/// 100 ms without a command is stale.
+const COMMAND_TIMEOUT_TICKS: u16 = 100;
+
+fn sensor(stroke: Stroke) -> PositionSensor {
+    let [min_code, max_code] = END_CODES;
+    PositionSensor { stroke, min_code, max_code, tolerance_codes: TOLERANCE_CODES }
+}
+
+fn dig(file: &file::Dig) -> DigParameters {
+    let mut dig = DigParameters {
+        start_x_m: file.start_x_m,
+        start_z_m: file.start_z_m,
+        ground_z_m: file.ground_z_m,
+        reach_m: file.reach_m,
+        plunge_m: file.plunge_m,
+        scoop_radius_m: file.scoop_m,
+        scoop_end_deg: file.scoop_end_deg,
+        pitch_deg: [file.start_pitch_deg, file.reach_pitch_deg, file.plunge_pitch_deg, file.scoop_pitch_deg],
+        until_s: [file.reach_until_s, file.plunge_until_s, file.scoop_until_s],
+        hold_lead_s: 0.0,
+    };
+    if file.reading == Reading::AsPublished {
+        dig.scoop_radius_m = dig.published_scoop_radius_m();
+        dig.hold_lead_s = file.scoop_until_s / f64::from(file.samples);
+    }
+    dig
+}
+
+pub(super) fn scenario(file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
+    let g = &machine.geometry;
+    let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
+    let p = &file.plant;
+    let dead_band = [p.dead_band_extend, p.dead_band_retract];
+    let speeds = [p.boom_speed_mps, p.arm_speed_mps, p.bucket_speed_mps];
+    let models: [CylinderModel; 3] = std::array::from_fn(|i| CylinderModel {
+        stroke: strokes[i],
+        dead_time_s: p.dead_time_s,
+        spool_lag_s: p.spool_lag_s,
+        dead_band,
+        full_speed_mps: [speeds[i], speeds[i] * p.retract_speed_ratio],
+    });
+    // The controller knows its valves as a calibration would leave them: here exactly.
+    let valves = models.map(|model| {
+        [0, 1].map(|d| ValveDirection {
+            dead_band: model.dead_band[d] as f32,
+            full_speed_mps: model.full_speed_mps[d] as f32,
+        })
+    });
+    let m = &file.motion;
+    let [min_v, max_v] = SUPPLY_RANGE_V;
+    let parameters = Parameters {
+        geometry: *g,
+        swing_sensor: g
+            .swing
+            .map_or(SwingSensor::Angle { zero_code: ZERO_CODE }, |s| SwingSensor::Cylinder(sensor(s.stroke))),
+        cylinder_sensors: strokes.map(sensor),
+        valves,
+        coil: Coil { full_scale_a: p.coil_full_scale_a as f32, resistance_ohm: p.coil_resistance_ohm as f32 },
+        supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
+        command_timeout_ticks: COMMAND_TIMEOUT_TICKS,
+        motion: MotionParameters {
+            preview_s: m.preview_s as f32,
+            gain_per_s: m.gain_per_s as f32,
+            smallest_speed_mps: m.smallest_speed_mps as f32,
+            start_tolerance_m: m.start_tolerance_m as f32,
+            following_error_m: m.following_error_m as f32,
+        },
+        dig: dig(&file.dig),
+    };
+    parameters.validate().map_err(|error| error.to_string())?;
+    Ok(Scenario {
+        name: file.name,
+        description: file.description,
+        duration_s: file.duration_s,
+        enable_s: file.operator.enable_s,
+        dig_s: file.operator.dig_s,
+        dig: parameters.dig,
+        parameters,
+        plant: models,
+        coil: CoilModel { full_scale_a: p.coil_full_scale_a, resistance_ohm: p.coil_resistance_ohm },
+        supply_v: p.supply_v,
+        sensor_noise_m: p.sensor_noise_m,
+        events: Events::new(file.event),
+        machine,
+    })
+}

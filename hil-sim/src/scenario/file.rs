@@ -1,0 +1,89 @@
+//! The scenario file's own shape: one scalar a line, every table complete, nothing unknown.
+
+use serde::Deserialize;
+
+use super::event::Event;
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ScenarioFile {
+    pub(super) name: String,
+    pub(super) description: String,
+    pub(super) machine: String,
+    pub(super) duration_s: f64,
+    pub(super) operator: Operator,
+    pub(super) dig: Dig,
+    pub(super) motion: Motion,
+    pub(super) plant: Plant,
+    #[serde(default)]
+    pub(super) event: Vec<Event>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Operator {
+    pub(super) enable_s: f64,
+    pub(super) dig_s: f64,
+}
+
+/// How to read the paper's program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Reading {
+    /// x stays at the reach while plunging; `scoop_m` is the arc's radius.
+    AsMeant,
+    /// x stays at the reach's last sample of `samples`; `scoop_m` is not used.
+    AsPublished,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Dig {
+    pub(super) reading: Reading,
+    pub(super) samples: u32,
+    pub(super) start_x_m: f64,
+    pub(super) start_z_m: f64,
+    pub(super) ground_z_m: f64,
+    pub(super) reach_m: f64,
+    pub(super) plunge_m: f64,
+    pub(super) scoop_m: f64,
+    pub(super) scoop_end_deg: f64,
+    pub(super) start_pitch_deg: f64,
+    pub(super) reach_pitch_deg: f64,
+    pub(super) plunge_pitch_deg: f64,
+    pub(super) scoop_pitch_deg: f64,
+    pub(super) reach_until_s: f64,
+    pub(super) plunge_until_s: f64,
+    pub(super) scoop_until_s: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Motion {
+    pub(super) preview_s: f64,
+    pub(super) gain_per_s: f64,
+    pub(super) smallest_speed_mps: f64,
+    pub(super) start_tolerance_m: f64,
+    pub(super) following_error_m: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Plant {
+    pub(super) dead_time_s: f64,
+    pub(super) spool_lag_s: f64,
+    pub(super) dead_band_extend: f64,
+    pub(super) dead_band_retract: f64,
+    pub(super) boom_speed_mps: f64,
+    pub(super) arm_speed_mps: f64,
+    pub(super) bucket_speed_mps: f64,
+    pub(super) retract_speed_ratio: f64,
+    pub(super) coil_full_scale_a: f64,
+    pub(super) coil_resistance_ohm: f64,
+    pub(super) supply_v: f64,
+    pub(super) sensor_noise_m: f64,
+}
+
+pub(super) fn parse(text: &str) -> Result<ScenarioFile, String> {
+    crate::toml_text::strictly(text).map_err(|fault| fault.to_string())
+}

@@ -1,0 +1,103 @@
+//! Scenario files: a machine, a dig, an operator, a plant, and what goes wrong when.
+//!
+//! The format is described in `docs/scenarios.md`.
+
+mod build;
+mod check;
+mod event;
+mod file;
+
+use std::path::{Path, PathBuf};
+
+use firmware::Parameters;
+use firmware::dig::DigParameters;
+
+use crate::machine_file::{MachineFile, MachineFileError};
+use crate::plant::{CoilModel, CylinderModel};
+
+pub use event::{Event, Events, Kind};
+
+/// A scenario, checked, with everything a run needs.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Its name.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// The machine.
+    pub machine: MachineFile,
+    /// How long to simulate, s.
+    pub duration_s: f64,
+    /// When the operator switches enable on, s.
+    pub enable_s: f64,
+    /// When the operator asks for the dig, s.
+    pub dig_s: f64,
+    /// The dig as the controller gets it.
+    pub dig: DigParameters,
+    /// Everything the controller is built from.
+    pub parameters: Parameters,
+    /// Boom, arm, bucket of the simulated machine.
+    pub plant: [CylinderModel; 3],
+    /// Their coils.
+    pub coil: CoilModel,
+    /// Nominal supply, V.
+    pub supply_v: f64,
+    /// Standard deviation of the position sensors, m.
+    pub sensor_noise_m: f64,
+    /// What goes wrong when.
+    pub events: Events,
+}
+
+/// Why a scenario cannot be used; every message names the file and the field.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenarioError {
+    /// The file cannot be read.
+    #[error("cannot read the scenario {}: {source}", file.display())]
+    Read {
+        /// Its path.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A field is missing, unknown, of the wrong kind or outside its range.
+    #[error("{}: {what}", file.display())]
+    Invalid {
+        /// The scenario's path.
+        file: PathBuf,
+        /// Field and allowed range.
+        what: String,
+    },
+    /// The machine it names.
+    #[error("{}: `machine`: {source}", file.display())]
+    Machine {
+        /// The scenario's path.
+        file: PathBuf,
+        /// What is wrong with the machine.
+        source: MachineFileError,
+    },
+}
+
+impl Scenario {
+    /// Loads a scenario and the machine it names.
+    ///
+    /// # Errors
+    /// A fault named by file and field.
+    pub fn load(file: &Path) -> Result<Self, ScenarioError> {
+        let text =
+            std::fs::read_to_string(file).map_err(|source| ScenarioError::Read { file: file.to_owned(), source })?;
+        Self::from_toml(&text, file)
+    }
+
+    /// A scenario from the text of a file; `file` is how messages call it.
+    ///
+    /// # Errors
+    /// As [`Scenario::load`].
+    pub fn from_toml(text: &str, file: &Path) -> Result<Self, ScenarioError> {
+        let invalid = |what| ScenarioError::Invalid { file: file.to_owned(), what };
+        let scenario = file::parse(text).map_err(invalid)?;
+        check::ranges(&scenario).map_err(invalid)?;
+        let machine = MachineFile::load(&scenario.machine)
+            .map_err(|source| ScenarioError::Machine { file: file.to_owned(), source })?;
+        build::scenario(scenario, machine).map_err(invalid)
+    }
+}
