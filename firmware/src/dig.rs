@@ -104,7 +104,7 @@ impl<T: Real> Dig<T> {
         self.until[2]
     }
 
-    /// Tip and pitch at `time` [s]; before the start and after the end it rests.
+    /// Tip and pitch at `time` (s); before the start and after the end it rests.
     pub fn tip(&self, time: T) -> PlaneTip<T> {
         let [reached, plunged, end] = self.until;
         let time = if time < T::ZERO {

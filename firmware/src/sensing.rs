@@ -30,7 +30,7 @@ impl Scale {
         }
     }
 
-    /// Length [m]; `None` outside the valid codes. Valid codes beyond an end of the stroke (noise at the stop) mean that end.
+    /// Length (m); `None` outside the valid codes. Valid codes beyond an end of the stroke (noise at the stop) mean that end.
     fn length(&self, code: u16) -> Option<f32> {
         if code < self.first_valid || code > self.last_valid {
             return None;

@@ -140,7 +140,7 @@ impl FrankelDistances {
     }
 }
 
-/// Koivo 1994's lengths [m] and structural angles [rad], under the labels of its Figures 1 and 2. ε3, which the paper reads from a
+/// Koivo 1994's lengths (m) and structural angles (rad), under the labels of its Figures 1 and 2. ε3, which the paper reads from a
 /// sensor, is not needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // The paper's figure labels: l_ab is L_AB.

@@ -7,7 +7,7 @@
 use crate::triangle::{Side, Triangle};
 use crate::{Real, Rotor, Vec2};
 
-/// Which part of the linkage does not close, and by how much [m].
+/// Which part of the linkage does not close, and by how much (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap<T>(pub T);
 
@@ -66,7 +66,7 @@ impl<T: Real> FourBar<T> {
         }
     }
 
-    /// Cylinder length [m] → rotor of θ4.
+    /// Cylinder length (m) → rotor of θ4.
     #[inline(always)]
     pub fn rotor(&self, length: T) -> Result<Rotor<T>, Gap<T>> {
         let j = self.pivot_from_pin + self.rocker.vector(length).map_err(Gap)?;
@@ -86,7 +86,7 @@ impl<T: Real> FourBar<T> {
         self.assemble(j, square, balance, discriminant)
     }
 
-    /// Rotor of θ4 → cylinder length [m]: K from θ4, J from the circles (I, r) and (K, c) on the + side,
+    /// Rotor of θ4 → cylinder length (m): K from θ4, J from the circles (I, r) and (K, c) on the + side,
     /// `J = I + (r/|d|)·R(+a)·d` with d = K − I.
     #[inline(always)]
     pub fn length(&self, rotor: Rotor<T>) -> Result<T, Gap<T>> {

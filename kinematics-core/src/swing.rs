@@ -20,7 +20,7 @@ impl<T: Real> SwingCylinder<T> {
         }
     }
 
-    /// Cylinder length [m] → rotor of θ1.
+    /// Cylinder length (m) → rotor of θ1.
     ///
     /// # Errors
     /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`] of the swing cylinder.
@@ -30,7 +30,7 @@ impl<T: Real> SwingCylinder<T> {
         self.triangle.rotor(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
     }
 
-    /// Rotor of θ1 → cylinder length [m].
+    /// Rotor of θ1 → cylinder length (m).
     ///
     /// # Errors
     /// [`PoseError::OutOfStroke`] of the swing cylinder.

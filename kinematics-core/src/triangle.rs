@@ -73,7 +73,7 @@ impl<T: Real> Triangle<T> {
         }
     }
 
-    /// Cylinder length [m] → the joint's rotor times the scale, or by how much the triangle fails to close [m].
+    /// Cylinder length (m) → the joint's rotor times the scale, or by how much the triangle fails to close (m).
     #[inline(always)]
     pub fn vector(&self, length: T) -> Result<Vec2<T>, T> {
         let (u, v) = self.products(length);
@@ -94,7 +94,7 @@ impl<T: Real> Triangle<T> {
         self.vector(length).map(|v| Rotor { cos: v.x, sin: v.z })
     }
 
-    /// Rotor → cylinder length [m]. The root cannot fail: |a − b| ≤ L by construction, up to rounding.
+    /// Rotor → cylinder length (m). The root cannot fail: |a − b| ≤ L by construction, up to rounding.
     #[inline(always)]
     pub fn length(&self, rotor: Rotor<T>) -> T {
         let square = self.squares + (rotor.cos * self.back.x + rotor.sin * self.back.z);

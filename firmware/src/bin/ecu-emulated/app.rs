@@ -46,7 +46,10 @@ mod app {
         let mut text = Text::default();
         let built = match postcard::from_bytes::<Parameters>(record) {
             Ok(parameters) => Ecu::new(&parameters).map_err(|error| text.set(&error)),
-            Err(error) => Err(text.set(&error)),
+            Err(error) => {
+                text.set(&error);
+                Err(())
+            }
         };
         link.write(&(text.as_bytes().len() as u32).to_le_bytes())?;
         link.write(text.as_bytes())?;

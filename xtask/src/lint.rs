@@ -1,0 +1,32 @@
+//! Formatting, clippy and rustdoc; a warning is an error.
+
+use crate::arm;
+use crate::process::{Outcome, announce, capture, cargo, command as program, run};
+
+const DENY: [&str; 3] = ["--", "-D", "warnings"];
+
+/// `cargo xtask lint`: stops at the first finding.
+pub(crate) fn command() -> Outcome<bool> {
+    let tools = ["fmt", "clippy"].map(|tool| capture(cargo().args([tool, "--version"])));
+    if tools.iter().any(Result::is_err) {
+        announce("installing rustfmt and clippy");
+        run(program("rustup").args(["component", "add", "rustfmt", "clippy"]))?;
+    }
+    announce("formatting");
+    run(cargo().args(["fmt", "--all", "--check"]))?;
+    announce("clippy, host");
+    run(cargo().args(["clippy", "--workspace", "--all-targets"]).args(DENY))?;
+    announce("rustdoc");
+    run(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+    announce("clippy, ARM images");
+    match arm::rustup() {
+        Ok(_) => run(cargo()
+            .args(["clippy", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET])
+            .args(DENY))?,
+        // Clippy is part of the toolchain, so Debian's compiler cannot stand in.
+        Err(why) => {
+            eprintln!("warning: what only the images contain was not linted, clippy lacks {}: {why}", arm::TARGET)
+        }
+    }
+    Ok(true)
+}
