@@ -1,1 +1,3 @@
 //! Helpers of the cross-crate tests.
+
+pub mod rig;

@@ -1,0 +1,132 @@
+//! A controller on a bench: inputs set by hand, one tick at a time.
+
+use std::path::{Path, PathBuf};
+
+use firmware::{Ecu, Inputs, Outputs, Parameters, Request, State};
+use hil_sim::plant::sensors::code;
+use hil_sim::scenario::Scenario;
+use kinematics_core::{Cylinders, Machine};
+
+/// The workspace's root.
+pub fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A scenario of this repository.
+pub fn scenario(name: &str) -> Scenario {
+    let file = workspace().join("scenarios").join(name).with_extension("toml");
+    Scenario::load(&file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every scenario file of this repository, by name.
+pub fn scenario_names() -> Vec<String> {
+    let folder = workspace().join("scenarios");
+    let files = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut names: Vec<String> = files
+        .map(|file| file.expect("a readable folder").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect();
+    names.sort();
+    assert!(!names.is_empty(), "no scenario in {}", folder.display());
+    names
+}
+
+/// A controller with the inputs it will get next.
+#[derive(Clone, Debug)]
+pub struct Rig {
+    /// The controller.
+    pub ecu: Ecu,
+    /// What the next tick reads; the command counter counts by itself while `sending`.
+    pub inputs: Inputs,
+    /// Messages arrive.
+    pub sending: bool,
+}
+
+impl Rig {
+    /// At the start of the dig scenario, everything healthy, enable off, levers in neutral.
+    pub fn new() -> Self {
+        let scenario = scenario("dig");
+        Self::with(&scenario.parameters)
+    }
+
+    /// The same with other parameters.
+    pub fn with(parameters: &Parameters) -> Self {
+        let ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
+        let machine = Machine::<f64>::new(&parameters.geometry).expect("a valid geometry");
+        let dig = firmware::dig::Dig::<f64>::new(&parameters.dig);
+        let start = machine.tip_to_cylinders(&dig.tip(0.0)).expect("a start within reach");
+        let mut rig = Self {
+            ecu,
+            inputs: Inputs {
+                codes: [32768; 4],
+                supply_code: 39321,
+                command_counter: 0,
+                request: Request::Neutral,
+                enable: false,
+                emergency_stop: false,
+                overrun: false,
+            },
+            sending: true,
+        };
+        rig.stand_at(parameters, &start);
+        rig
+    }
+
+    /// Sets the sensors' codes to these lengths, m.
+    pub fn stand_at(&mut self, parameters: &Parameters, lengths: &Cylinders<f64>) {
+        let [boom, arm, bucket] = &parameters.cylinder_sensors;
+        self.inputs.codes[1] = code(boom, lengths.boom, 0.0);
+        self.inputs.codes[2] = code(arm, lengths.arm, 0.0);
+        self.inputs.codes[3] = code(bucket, lengths.bucket, 0.0);
+    }
+
+    /// One tick.
+    pub fn tick(&mut self) -> Outputs {
+        if self.sending {
+            self.inputs.command_counter = self.inputs.command_counter.wrapping_add(1);
+        }
+        self.ecu.tick(&self.inputs)
+    }
+
+    /// Several ticks; gives the last outputs.
+    pub fn ticks(&mut self, count: u32) -> Outputs {
+        (0..count).map(|_| self.tick()).last().expect("at least one tick")
+    }
+
+    /// Neutral, then enable: the controller runs.
+    pub fn start(&mut self) -> Outputs {
+        self.inputs.enable = false;
+        self.inputs.request = Request::Neutral;
+        self.ticks(3);
+        self.inputs.enable = true;
+        let outputs = self.tick();
+        assert_eq!(outputs.state, State::Running, "{:?}", outputs.fault);
+        outputs
+    }
+
+    /// Running, and digging for so many ticks with the machine standing still.
+    pub fn dig(&mut self, ticks: u32) -> Outputs {
+        self.start();
+        self.inputs.request = Request::Dig;
+        self.ticks(ticks)
+    }
+}
+
+impl Default for Rig {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// No current anywhere and the cut-off open.
+pub fn is_safe(outputs: &Outputs) -> bool {
+    !outputs.cut_off_closed
+        && outputs.currents.iter().flatten().all(|&current| current == 0.0)
+        && outputs.duties.iter().flatten().all(|&duty| duty == 0)
+}
+
+/// Some coil carries current.
+pub fn drives(outputs: &Outputs) -> bool {
+    outputs.cut_off_closed && outputs.duties.iter().flatten().any(|&duty| duty > 0)
+}

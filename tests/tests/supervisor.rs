@@ -1,0 +1,263 @@
+//! The supervisor: nothing moves without neutral and a fresh enable, and everything stops when something is wrong.
+
+use cross_tests::rig::{Rig, drives, is_safe, scenario};
+use firmware::{Ecu, Fault, Inputs, Request, State};
+use kinematics_core::{Cylinder, Cylinders};
+use proptest::prelude::*;
+
+/// Ticks of digging after which the machine has a speed command: past the start of the feed-forward.
+const DIGGING: u32 = 20;
+
+#[test]
+fn a_healthy_dig_drives_the_coils() {
+    assert!(drives(&Rig::new().dig(DIGGING)));
+}
+
+#[test]
+fn an_enable_switch_found_on_at_power_up_enables_nothing() {
+    let mut rig = Rig::new();
+    rig.inputs.enable = true;
+    for _ in 0..500 {
+        let outputs = rig.tick();
+        assert!(is_safe(&outputs) && outputs.state != State::Running);
+    }
+}
+
+#[test]
+fn levers_out_of_neutral_while_enabling_enable_nothing() {
+    let mut rig = Rig::new();
+    rig.ticks(5);
+    rig.inputs.request = Request::Dig;
+    rig.inputs.enable = true;
+    for _ in 0..500 {
+        assert!(is_safe(&rig.tick()));
+    }
+}
+
+#[test]
+fn without_a_command_message_nothing_is_ever_enabled() {
+    let mut rig = Rig::new();
+    rig.sending = false;
+    rig.ticks(5);
+    rig.inputs.enable = true;
+    for _ in 0..500 {
+        assert!(is_safe(&rig.tick()));
+    }
+}
+
+#[test]
+fn running_in_neutral_commands_zero_current() {
+    let mut rig = Rig::new();
+    rig.start();
+    for _ in 0..500 {
+        let outputs = rig.tick();
+        assert_eq!(outputs.state, State::Running);
+        assert!(outputs.currents.iter().flatten().all(|&current| current == 0.0));
+    }
+}
+
+#[test]
+fn switching_enable_off_stops_in_the_same_tick_without_a_fault() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.inputs.enable = false;
+    let outputs = rig.tick();
+    assert!(is_safe(&outputs));
+    assert_eq!(outputs.fault, None);
+}
+
+type Break = fn(&mut Rig);
+
+/// Every fault that one input can cause while digging.
+const BREAKS: [(&str, Break, Fault); 9] = [
+    ("emergency stop", |rig| rig.inputs.emergency_stop = true, Fault::EmergencyStop),
+    ("overrun", |rig| rig.inputs.overrun = true, Fault::Overrun),
+    ("supply lost", |rig| rig.inputs.supply_code = 0, Fault::Supply),
+    ("supply too high", |rig| rig.inputs.supply_code = 65535, Fault::Supply),
+    ("swing sensor open", |rig| rig.inputs.codes[0] = 0, Fault::Sensor(Cylinder::Swing)),
+    ("boom sensor open", |rig| rig.inputs.codes[1] = 0, Fault::Sensor(Cylinder::Boom)),
+    ("arm sensor shorted", |rig| rig.inputs.codes[2] = 65535, Fault::Sensor(Cylinder::Arm)),
+    ("bucket sensor open", |rig| rig.inputs.codes[3] = 0, Fault::Sensor(Cylinder::Bucket)),
+    ("boom runs away", |rig| rig.inputs.codes[1] = 60000, Fault::FollowingError),
+];
+
+#[test]
+fn every_fault_stops_everything_in_the_same_tick_and_is_named() {
+    for (what, break_it, fault) in BREAKS {
+        let mut rig = Rig::new();
+        assert!(drives(&rig.dig(DIGGING)), "{what}");
+        break_it(&mut rig);
+        let outputs = rig.tick();
+        assert!(is_safe(&outputs), "{what}");
+        assert_eq!((outputs.state, outputs.fault), (State::Fault, Some(fault)), "{what}");
+    }
+}
+
+#[test]
+fn a_fault_stays_latched_after_its_cause_is_gone_until_neutral_and_a_fresh_enable() {
+    for (what, break_it, fault) in BREAKS {
+        let mut rig = Rig::new();
+        rig.dig(DIGGING);
+        let healthy = rig.inputs;
+        break_it(&mut rig);
+        rig.tick();
+        rig.inputs = Inputs { command_counter: rig.inputs.command_counter, ..healthy };
+        // The lever is still on dig and enable still on: nothing may start.
+        for _ in 0..300 {
+            let outputs = rig.tick();
+            assert!(is_safe(&outputs), "{what}");
+            assert_eq!(outputs.fault, Some(fault), "{what}");
+        }
+        // Enable off and on with the lever on dig: still nothing.
+        rig.inputs.enable = false;
+        rig.ticks(5);
+        rig.inputs.enable = true;
+        assert!(is_safe(&rig.ticks(50)), "{what}");
+        // Neutral and a fresh enable: running again, the fault forgotten.
+        assert_eq!(rig.start().fault, None, "{what}");
+    }
+}
+
+#[test]
+fn an_emergency_stop_acts_in_every_state() {
+    let states: [(&str, Break); 4] = [
+        ("locked", |_| {}),
+        ("ready", |rig| {
+            rig.ticks(5);
+        }),
+        ("running", |rig| {
+            rig.start();
+        }),
+        ("fault", |rig| {
+            rig.dig(DIGGING);
+            rig.inputs.codes[1] = 0;
+            rig.tick();
+        }),
+    ];
+    for (state, reach) in states {
+        let mut rig = Rig::new();
+        reach(&mut rig);
+        rig.inputs.emergency_stop = true;
+        let outputs = rig.tick();
+        assert_eq!(outputs.state, State::Fault, "{state}");
+        assert!(is_safe(&outputs), "{state}");
+    }
+}
+
+#[test]
+fn the_first_fault_keeps_its_name_when_others_follow() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.inputs.codes[2] = 0;
+    rig.tick();
+    rig.inputs.emergency_stop = true;
+    rig.inputs.supply_code = 0;
+    assert_eq!(rig.ticks(10).fault, Some(Fault::Sensor(Cylinder::Arm)));
+}
+
+#[test]
+fn one_sensors_good_value_does_not_clear_anothers_fault() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.inputs.codes[1] = 0;
+    rig.tick();
+    rig.inputs.request = Request::Neutral;
+    rig.inputs.enable = false;
+    for step in 0..200 {
+        // The others move and are fine.
+        rig.inputs.codes[2] = 30000 + step;
+        assert_eq!(rig.tick().state, State::Fault);
+    }
+}
+
+#[test]
+fn a_command_counter_standing_still_stops_motion_within_a_hundred_milliseconds() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.sending = false;
+    assert!(drives(&rig.ticks(99)), "a message may be up to 99 ms late");
+    let outputs = rig.tick();
+    assert!(is_safe(&outputs));
+    assert_eq!(outputs.fault, Some(Fault::CommandStale));
+}
+
+#[test]
+fn a_dig_far_from_its_start_is_a_fault_and_moves_nothing() {
+    let parameters = scenario("dig").parameters;
+    let mut rig = Rig::with(&parameters);
+    rig.stand_at(&parameters, &Cylinders { boom: 1.0, arm: 0.9, bucket: 0.8 });
+    rig.start();
+    rig.inputs.request = Request::Dig;
+    let outputs = rig.tick();
+    assert!(is_safe(&outputs));
+    assert_eq!(outputs.fault, Some(Fault::NotAtStart));
+}
+
+#[test]
+fn releasing_the_lever_during_a_dig_commands_zero_at_once_and_starting_over_needs_the_start() {
+    let mut rig = Rig::new();
+    assert!(drives(&rig.dig(DIGGING)));
+    rig.inputs.request = Request::Neutral;
+    let outputs = rig.tick();
+    assert_eq!(outputs.state, State::Running);
+    assert!(outputs.currents.iter().flatten().all(|&current| current == 0.0));
+    assert_eq!(outputs.dig_tick, 0);
+}
+
+fn any_inputs() -> impl Strategy<Value = Inputs> {
+    // Mostly plausible codes, so that runs get past the sensors; sometimes anything.
+    let code = || prop_oneof![8 => 20_000_u16..45_000, 1 => any::<u16>()];
+    (
+        [code(), code(), code(), code()],
+        prop_oneof![8 => Just(39_321_u16), 1 => any::<u16>()],
+        any::<u8>(),
+        prop_oneof![Just(Request::Neutral), Just(Request::Dig)],
+        any::<bool>(),
+        prop::bool::weighted(0.02),
+        prop::bool::weighted(0.02),
+    )
+        .prop_map(|(codes, supply_code, command_counter, request, enable, emergency_stop, overrun)| Inputs {
+            codes,
+            supply_code,
+            command_counter,
+            request,
+            enable,
+            emergency_stop,
+            overrun,
+        })
+}
+
+proptest! {
+    #[test]
+    fn whatever_comes_in_outputs_are_finite_and_safe_outside_running(
+        inputs in prop::collection::vec(any_inputs(), 1..200),
+        from_the_start in any::<bool>(),
+    ) {
+        let mut rig = Rig::new();
+        let mut ecu: Ecu = if from_the_start {
+            rig.dig(DIGGING);
+            rig.ecu
+        } else {
+            rig.ecu
+        };
+        for inputs in inputs {
+            let outputs = ecu.tick(&inputs);
+            prop_assert!(outputs.state == State::Running || is_safe(&outputs));
+            prop_assert!((outputs.state == State::Fault) <= outputs.fault.is_some());
+            prop_assert_eq!(outputs.cut_off_closed, outputs.state == State::Running);
+            if inputs.emergency_stop || inputs.overrun || !inputs.enable {
+                prop_assert!(is_safe(&outputs));
+            }
+            for [extend, retract] in outputs.currents {
+                prop_assert!(extend.is_finite() && retract.is_finite() && extend >= 0.0 && retract >= 0.0);
+                prop_assert!(extend == 0.0 || retract == 0.0, "both solenoids of a spool on together");
+            }
+            let pose = outputs.pose;
+            let all = [pose.x, pose.y, pose.plane.reach, pose.plane.height, pose.swing.cos, pose.swing.sin,
+                pose.plane.pitch.cos, pose.plane.pitch.sin, pose.joints.boom.cos, pose.joints.arm.cos,
+                pose.joints.bucket.cos, outputs.lengths.boom, outputs.lengths.arm, outputs.lengths.bucket,
+                outputs.reference.boom, outputs.speeds.boom, outputs.speeds.arm, outputs.speeds.bucket];
+            prop_assert!(all.iter().all(|x| x.is_finite()));
+        }
+    }
+}
