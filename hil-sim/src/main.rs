@@ -1,2 +1,7 @@
 //! `hil`: the desktop harness.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    hil_sim::cli::main()
+}

@@ -1,0 +1,35 @@
+//! The `hil` command: one module a subcommand.
+
+pub mod pose;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Desktop harness of the excavator controller.
+#[derive(Debug, Parser)]
+#[command(name = "hil", version, about)]
+struct Hil {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Show one pose as cylinder lengths, joint angles and bucket tip
+    Pose(pose::PoseArgs),
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    match Hil::try_parse_from(&arguments) {
+        Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
+        // A script that asked for a pose reads every error from standard output, a wrong option too.
+        Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
+            pose::usage_error(&error, &arguments)
+        }
+        Err(error) => error.exit(),
+    }
+}
