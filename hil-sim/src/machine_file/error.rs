@@ -66,10 +66,11 @@ impl Layout {
 
     /// A length in the file's unit.
     fn length(self, metres: f64) -> String {
+        // Nine digits hide the rounding of inches to metres and back.
+        let short = |x: f64| if x.abs() < 1e6 { (x * 1e9).round() / 1e9 } else { x };
         match self {
-            // Back from the exact factor: nine digits hide its rounding.
-            Self::Frankel => format!("{} in", (metres / INCH_M * 1e9).round() / 1e9),
-            Self::Pins | Self::Koivo => format!("{metres} m"),
+            Self::Frankel => format!("{} in", short(metres / INCH_M)),
+            Self::Pins | Self::Koivo => format!("{} m", short(metres)),
         }
     }
 

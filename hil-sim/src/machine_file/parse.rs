@@ -83,6 +83,15 @@ fn fault(text: &str, path: &str, error: &toml::de::Error) -> Fault {
             format!("{message}: {here}")
         }
         (table, true) => format!("`[{table}]`: {message}: every field of a table is required"),
+        // A tag of the wrong type: serde speaks of its own types.
+        (field @ ("kind" | "labels" | "boom_cylinder"), false) if !message.contains("expected") => {
+            let allowed = match field {
+                "kind" => "`\"pins\"` or `\"distances\"`",
+                "labels" => "`\"frankel\"` or `\"koivo\"`",
+                _ => "`\"below\"` or `\"above\"`",
+            };
+            format!("`{field}` must be {allowed}")
+        }
         (field, false) => format!("`{field}`: {message}"),
     };
     Fault { line, what }
