@@ -20,9 +20,11 @@ pub(crate) fn command() -> Outcome<bool> {
     run(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
     announce("clippy, ARM images");
     match arm::rustup() {
-        Ok(_) => run(cargo()
-            .args(["clippy", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET])
-            .args(DENY))?,
+        Ok(_) => {
+            // In release, so that the macros are built once for this and for the images.
+            let images = ["clippy", "--release", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET];
+            run(cargo().args(images).args(DENY))?;
+        }
         // Clippy is part of the toolchain, so Debian's compiler cannot stand in.
         Err(why) => {
             eprintln!("warning: what only the images contain was not linted, clippy lacks {}: {why}", arm::TARGET)
