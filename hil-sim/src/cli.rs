@@ -1,6 +1,9 @@
 //! The `hil` command: one module a subcommand.
 
+pub mod bench;
 pub mod pose;
+mod progress;
+pub mod run;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -19,6 +22,10 @@ struct Hil {
 enum Command {
     /// Show one pose as cylinder lengths, joint angles and bucket tip
     Pose(pose::PoseArgs),
+    /// Run a scenario on the host or on the emulated ECU, and report it
+    Run(run::RunArgs),
+    /// Print instruction counts of the maps and of the tick on the emulated ECU
+    Bench(bench::BenchArgs),
 }
 
 /// Runs the command line of this process.
@@ -26,6 +33,8 @@ pub fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     match Hil::try_parse_from(&arguments) {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
+        Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

@@ -1,7 +1,20 @@
 //! Simulated machine and hardware for the excavator controller.
 //!
 //! - [`machine_file`] — a machine's geometry from TOML;
+//! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
+//! - [`travel`] — the dig against the travel limits, before anything moves;
+//! - [`plant`] — the simulated machine;
+//! - [`place`] — where the application runs: this process, or the emulated ECU;
+//! - [`run`] — all of it together, tick by tick;
+//! - [`report`] — what a run looks like;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
 pub mod machine_file;
+pub mod place;
+pub mod plant;
+pub mod report;
+pub mod run;
+pub mod scenario;
+mod toml_text;
+pub mod travel;

@@ -3,6 +3,9 @@
 use serde::Deserialize;
 
 use super::event::Event;
+use crate::toml_text::{Tag, strictly};
+
+const TAGS: [Tag; 1] = [("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -85,5 +88,5 @@ pub(super) struct Plant {
 }
 
 pub(super) fn parse(text: &str) -> Result<ScenarioFile, String> {
-    crate::toml_text::strictly(text).map_err(|fault| fault.to_string())
+    strictly(text, &TAGS).map_err(|fault| fault.to_string())
 }
