@@ -35,6 +35,10 @@ pub struct PlaneTip<T> {
     pub pitch: Rotor<T>,
 }
 
+/// The nearest to the boom pin that the wrist may come, m. It matters only where boom and arm are equally long: nearer,
+/// the boom's direction is a quotient of vanishing numbers.
+const NEAREST_WRIST_M: f64 = 1e-6;
+
 /// The link lengths a1…a4 and what follows from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<T> {
@@ -122,7 +126,7 @@ impl<T: Real> Chain<T> {
         let square = wrist.norm_squared();
         // (2·a2·|D|)² − (a2² − a3² + |D|²)², as a product of differences: accurate near the stretched arm.
         let discriminant = (self.outer_square - square) * (square - self.inner_square);
-        if !(discriminant >= T::ZERO && square > T::ZERO) {
+        if !(discriminant >= T::ZERO && square >= T::from_f64(NEAREST_WRIST_M * NEAREST_WRIST_M)) {
             return Err(self.unreachable(square));
         }
         // The boom line from the line to the wrist: a2·rotor = (square + a2² − a3² + i·√)·D / 2|D|².
@@ -136,7 +140,12 @@ impl<T: Real> Chain<T> {
     fn unreachable(&self, square: T) -> PoseError<T> {
         let distance = square.sqrt();
         let outer = self.a2 + self.a3;
-        let by = if distance > outer { distance - outer } else { distance - self.inner_square.sqrt() };
+        let by = if distance > outer {
+            distance - outer
+        } else {
+            let (inner, nearest) = (self.inner_square.sqrt(), T::from_f64(NEAREST_WRIST_M));
+            distance - if inner > nearest { inner } else { nearest }
+        };
         PoseError::Unreachable { by }
     }
 }
@@ -152,4 +161,37 @@ pub fn pitch_from_digging_angle<T: Real>(bottom: Rotor<T>, digging: Rotor<T>) ->
 #[inline]
 pub fn digging_angle<T: Real>(bottom: Rotor<T>, pitch: Rotor<T>) -> Rotor<T> {
     pitch * bottom.inverse()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tip<T: Real>(reach: f64, height: f64) -> PlaneTip<T> {
+        PlaneTip { reach: T::from_f64(reach), height: T::from_f64(height), pitch: Rotor::IDENTITY }
+    }
+
+    #[test]
+    fn a_wrist_next_to_the_boom_pin_is_unreachable_even_where_boom_and_arm_are_equally_long() {
+        // 2.4e-20 squared survives in f32, and a quotient by it does not.
+        let chain = Chain::<f32>::new([0.0, 2.0, 2.0, 1.0]);
+        for height in [0.0, 1e-30, 2.4e-20, 1e-12, 5e-7] {
+            let found = chain.joints(&tip(1.0, height));
+            assert!(matches!(found, Err(PoseError::Unreachable { .. })), "{height}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_wrist_two_micrometres_from_the_boom_pin_folds_equal_links_together() {
+        let chain = Chain::<f64>::new([0.0, 2.0, 2.0, 1.0]);
+        let folded = chain.joints(&tip(1.0, 2e-6)).map(|joints| joints.arm);
+        assert!(folded.is_ok_and(|arm| (arm.cos + 1.0).abs() < 1e-11 && (arm.sin + 1e-6).abs() < 1e-11), "{folded:?}");
+    }
+
+    #[test]
+    fn the_unreachable_side_is_told_by_the_sign() {
+        let chain = Chain::<f64>::new([0.0, 3.0, 1.0, 1.0]);
+        assert_eq!(chain.joints(&tip(5.5, 0.0)), Err(PoseError::Unreachable { by: 0.5 }));
+        assert_eq!(chain.joints(&tip(2.5, 0.0)), Err(PoseError::Unreachable { by: -0.5 }));
+    }
 }
