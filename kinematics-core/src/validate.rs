@@ -96,6 +96,11 @@ impl PinGeometry {
 
     fn validate_bucket(&self) -> Result<(), GeometryError> {
         let b = self.bucket;
+        // Each pin by itself first: the differences below would name one pin for the other.
+        finite("bucket.base_x_m", b.base.x)?;
+        finite("bucket.base_z_m", b.base.z)?;
+        finite("bucket.rocker_pivot_x_m", b.rocker_pivot.x)?;
+        finite("bucket.rocker_pivot_z_m", b.rocker_pivot.z)?;
         pin(["bucket.base_x_m", "bucket.base_z_m"], b.base - b.rocker_pivot)?;
         let pivot_from_pin = b.rocker_pivot - self.bucket_pin();
         pin(["bucket.rocker_pivot_x_m", "bucket.rocker_pivot_z_m"], pivot_from_pin)?;
@@ -143,5 +148,17 @@ impl PinGeometry {
     pub(crate) fn four_bar<T: Real>(&self) -> FourBar<T> {
         let b = self.bucket;
         FourBar::new(b.base, b.rocker_pivot, self.bucket_pin(), b.coupler_pin, b.rocker_m, b.coupler_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rocker_pivot_that_is_not_finite_is_named_and_not_the_pin_measured_from_it() {
+        let mut g = PinGeometry::EXACT_MINI;
+        g.bucket.rocker_pivot.z = f64::NAN;
+        assert_eq!(g.validate(), Err(error("bucket.rocker_pivot_z_m", Problem::NotFinite)));
     }
 }
