@@ -14,7 +14,7 @@ fn point(v: Vec2<f64>) -> Point {
     Point::new(v.x, v.z)
 }
 
-/// A machine's pins in wide numbers, and the maps on them. The letters are those of the pins (`docs/kinematics.md`).
+/// A machine's pins in wide numbers, and the maps on them. The letters are those of `kinematics_core::geometry`.
 #[derive(Clone, Copy, Debug)]
 pub struct Oracle {
     above: bool,
