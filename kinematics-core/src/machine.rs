@@ -164,18 +164,18 @@ impl<T: Real> Machine<T> {
     /// Joints → cylinders, inside the stroke or not: Koivo 1994 (10), (12), (14), (29), Frankel 2003 `joint_to_cyl`.
     ///
     /// # Errors
-    /// [`PoseError::NoAssembly`] when the bucket's linkage does not close.
+    /// [`PoseError::NoAssembly`] when the bucket's linkage does not close, or a joint angle lies on the far side of a dead
+    /// point, which no cylinder length reaches.
     #[inline(always)]
     pub fn joints_to_cylinders_any_stroke(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
         Ok(Cylinders {
-            boom: self.boom.length(joints.boom),
-            arm: self.arm.length(joints.arm),
+            boom: self.boom.length(joints.boom).map_err(open(Cylinder::Boom))?,
+            arm: self.arm.length(joints.arm).map_err(open(Cylinder::Arm))?,
             bucket: self.bucket.length(joints.bucket).map_err(bucket_open)?,
         })
     }
 
-    /// Joints → cylinders, strokes checked. A joint angle on the far side of a triangle, which no cylinder length
-    /// reaches, is an assembly error.
+    /// Joints → cylinders, strokes checked.
     ///
     /// # Errors
     /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].

@@ -167,8 +167,10 @@ fn a_four_bar_too_short_for_an_angle_says_by_how_much_both_ways() {
                 closed[0] += 1;
             }
             Err(Gap(by)) => {
-                assert!((by - gap(from_pivot.norm(), rocker, coupler)).abs() < 1e-12, "{n}: {by}");
-                open[0] += 1;
+                let exact = gap(from_pivot.norm(), rocker, coupler);
+                // Where it closes, it is a dead point that the angle is beyond.
+                assert!(if exact > 0.0 { (by - exact).abs() < 1e-12 } else { by > 0.0 }, "{n}: {by}, not {exact}");
+                open[0] += u32::from(exact > 0.0);
             }
         }
     }
@@ -194,17 +196,63 @@ fn a_four_bar_too_short_for_an_angle_says_by_how_much_both_ways() {
     assert!(open.iter().chain(&closed).all(|n| *n > 10), "{open:?} open, {closed:?} closed");
 }
 
+/// Lengths the strict inverse gives for joint angle `which` at `degrees`, the others in mid-stroke, and the joints asked for.
+fn lengths_at(g: &PinGeometry, which: usize, degrees: f64) -> (Joints<f64>, Result<Cylinders<f64>, PoseError<f64>>) {
+    let machine = Machine::<f64>::new(g).unwrap();
+    let middle = strokes(g).map(|s| 0.5 * (s.min_m + s.max_m));
+    let mut joints = machine.cylinders_to_joints(&cylinders(middle)).unwrap();
+    let turned = Rotor::from_degrees(degrees);
+    match which {
+        0 => joints.boom = turned,
+        1 => joints.arm = turned,
+        _ => joints.bucket = turned,
+    }
+    (joints, machine.joints_to_cylinders(&joints))
+}
+
 #[test]
-fn every_bucket_angle_of_the_four_machines_has_a_length_that_is_a_number() {
-    // Their rockers and couplers reach all round; whether the cylinder does is the stroke check's to say.
+fn an_angle_gets_the_cylinder_that_makes_this_angle_or_none() {
+    // Beyond a dead point the same length belongs to another angle: half of all angles with a length in the stroke.
     for (name, g) in machines() {
         let machine = Machine::<f64>::new(&g).unwrap();
-        for degrees in 0..360 {
-            let bucket = Rotor::from_degrees(f64::from(degrees));
-            let joints = Joints { boom: Rotor::IDENTITY, arm: Rotor::from_degrees(-60.0), bucket };
-            let found = machine.joints_to_cylinders_any_stroke(&joints);
-            assert!(found.is_ok_and(|found| found.bucket.is_finite()), "{name} at {degrees}°");
+        for which in [0, 1, 2] {
+            let (mut answered, mut beyond) = (0, 0);
+            for n in 0..3600 {
+                match lengths_at(&g, which, 0.1 * f64::from(n)) {
+                    (asked, Ok(found)) => {
+                        let back = machine.cylinders_to_joints(&found).unwrap();
+                        let pairs = [(back.boom, asked.boom), (back.arm, asked.arm), (back.bucket, asked.bucket)];
+                        for (back, asked) in pairs {
+                            let off = (back * asked.inverse()).angle().abs();
+                            assert!(off < 1e-9, "{name}: {asked:?} came back as {back:?}, by {found:?}");
+                        }
+                        answered += 1;
+                    }
+                    (_, Err(PoseError::NoAssembly { cylinder, by })) => {
+                        assert!(cylinder == ORDER[which] && by > 0.0, "{name}, {cylinder} at {n}: {by}");
+                        beyond += 1;
+                    }
+                    (_, Err(PoseError::OutOfStroke { cylinder, .. })) => assert_eq!(cylinder, ORDER[which], "{name}"),
+                    (_, Err(other)) => panic!("{name}, cylinder {which} at {n}: {other:?}"),
+                }
+            }
+            assert!(answered > 300 && beyond > 300, "{name}, cylinder {which}: {answered}, {beyond}");
         }
+    }
+}
+
+#[test]
+fn an_angle_beyond_the_dead_point_says_how_far_the_pin_is_beyond_the_cylinder() {
+    // exact-mini's boom at 141.3° needs the length that holds it at 62.5°; the boom pin would lie beyond the cylinder.
+    let g = PinGeometry::EXACT_MINI;
+    let boom = Rotor::from_degrees(141.3);
+    let rod_eye = boom.rotate(g.boom.rod);
+    let exact = -g.boom.base.cross(rod_eye) / (rod_eye - g.boom.base).norm();
+    match lengths_at(&g, 0, 141.3).1 {
+        Err(PoseError::NoAssembly { cylinder: Cylinder::Boom, by }) => {
+            assert!((by - exact).abs() < 1e-12 && exact > 0.1, "{by}, not {exact}");
+        }
+        other => panic!("{other:?}"),
     }
 }
 

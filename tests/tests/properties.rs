@@ -87,6 +87,23 @@ proptest! {
     }
 
     #[test]
+    fn a_tip_gets_the_cylinders_that_put_the_tip_there_or_none(
+        which in 0..4usize,
+        (radius, around) in (0.0..1.0, rotors()),
+        pitch in rotors(),
+    ) {
+        let g = machines::all().unwrap()[which].1;
+        let machine = Machine::<f64>::new(&g).unwrap();
+        let at = around.to_vec().scale(radius * g.reach_m());
+        let tip = PlaneTip { reach: g.boom_pin_x_m + at.x, height: at.z, pitch };
+        if let Ok(found) = machine.tip_to_cylinders(&tip) {
+            let back = machine.cylinders_to_tip(&found, Rotor::IDENTITY).unwrap().plane;
+            let off = libm::hypot(back.reach - tip.reach, back.height - tip.height);
+            prop_assert!(off < 1e-9 && between(back.pitch, tip.pitch) < 1e-9, "{tip:?} came back as {back:?}");
+        }
+    }
+
+    #[test]
     fn koivos_matrix_product_is_the_chain((g, at) in poses(), swing in rotors()) {
         let machine = Machine::<f64>::new(&g).unwrap();
         let pose = machine.cylinders_to_tip(&cylinders(at), swing).unwrap();
