@@ -81,8 +81,9 @@ impl<T: Real> Dig<T> {
         let [reached, plunged, end] = p.until_s;
         let [pitch0, pitch1, pitch2, pitch3] = p.pitch_deg.map(|degrees| degrees / 360.0);
         let start = p.scoop_start();
-        let start_turns = libm::atan2(start.z, start.x) / core::f64::consts::TAU;
-        let offset = start.scale(p.scoop_radius_m / start.norm());
+        let radial = start.direction().unwrap_or(Rotor::IDENTITY);
+        let start_turns = radial.angle() / core::f64::consts::TAU;
+        let offset = radial.to_vec().scale(p.scoop_radius_m);
         Self {
             until: p.until_s.map(T::from_f64),
             x_until: T::from_f64(reached - p.hold_lead_s),

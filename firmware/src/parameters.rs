@@ -167,7 +167,7 @@ impl PositionSensor {
         // A stroke over fewer codes would read coarser than a tenth of a per mille.
         ordered(("sensor.min_code", f64::from(self.min_code) + 9999.0), ("sensor.max_code", f64::from(self.max_code)))?;
         // Some codes must be left to mean a broken wire.
-        let room = self.min_code.min(u16::MAX - self.max_code);
+        let room = core::cmp::min(self.min_code, u16::MAX - self.max_code);
         within("sensor.tolerance_codes", f64::from(self.tolerance_codes), [0.0, f64::from(room.saturating_sub(1))])
     }
 }

@@ -35,6 +35,10 @@ pub struct PlaneTip<T> {
     pub pitch: Rotor<T>,
 }
 
+/// The nearest to the boom pin that the wrist may come, m. It matters only where boom and arm are equally long: nearer,
+/// the boom's direction is a quotient of vanishing numbers.
+const NEAREST_WRIST_M: f64 = 1e-6;
+
 /// The link lengths a1…a4 and what follows from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<T> {
@@ -49,6 +53,9 @@ pub struct Chain<T> {
     balance: T,
     half_over_a2: T,
     one_over_a3: T,
+    /// a2² + a3² and 1/2·a2·a3
+    sum_of_squares: T,
+    half_over_a2_a3: T,
 }
 
 impl<T: Real> Chain<T> {
@@ -65,6 +72,8 @@ impl<T: Real> Chain<T> {
             balance: T::from_f64(a2 * a2 - a3 * a3),
             half_over_a2: T::from_f64(0.5 / a2),
             one_over_a3: T::from_f64(1.0 / a3),
+            sum_of_squares: T::from_f64(a2 * a2 + a3 * a3),
+            half_over_a2_a3: T::from_f64(0.5 / (a2 * a3)),
         }
     }
 
@@ -102,8 +111,7 @@ impl<T: Real> Chain<T> {
     #[inline(always)]
     pub fn joints(&self, tip: &PlaneTip<T>) -> Result<Joints<T>, PoseError<T>> {
         let wrist = Vec2::new(tip.reach - self.a1 - self.a4 * tip.pitch.cos, tip.height - self.a4 * tip.pitch.sin);
-        let (boom, arm) = self.boom_and_arm(wrist)?;
-        Ok(Joints { boom, arm: arm * boom.inverse(), bucket: tip.pitch * arm.inverse() })
+        self.joints_about_boom_pin(wrist, tip.pitch)
     }
 
     /// Wrist (reach, height) and pitch → joints, for a bucket given by its pin: Koivo 1994 (23)–(26).
@@ -112,31 +120,43 @@ impl<T: Real> Chain<T> {
     /// As [`Chain::joints`].
     #[inline]
     pub fn joints_from_wrist(&self, wrist: Vec2<T>, pitch: Rotor<T>) -> Result<Joints<T>, PoseError<T>> {
-        let (boom, arm) = self.boom_and_arm(Vec2::new(wrist.x - self.a1, wrist.z))?;
-        Ok(Joints { boom, arm: arm * boom.inverse(), bucket: pitch * arm.inverse() })
+        self.joints_about_boom_pin(Vec2::new(wrist.x - self.a1, wrist.z), pitch)
     }
 
-    /// Bucket pin from the boom pin → rotors of θ2 and of θ2 + θ3, the knee above the line (θ3 < 0).
+    /// Bucket pin from the boom pin → joints, the knee above the line (θ3 < 0).
     #[inline(always)]
-    fn boom_and_arm(&self, wrist: Vec2<T>) -> Result<(Rotor<T>, Rotor<T>), PoseError<T>> {
+    fn joints_about_boom_pin(&self, wrist: Vec2<T>, pitch: Rotor<T>) -> Result<Joints<T>, PoseError<T>> {
         let square = wrist.norm_squared();
         // (2·a2·|D|)² − (a2² − a3² + |D|²)², as a product of differences: accurate near the stretched arm.
         let discriminant = (self.outer_square - square) * (square - self.inner_square);
-        if !(discriminant >= T::ZERO && square > T::ZERO) {
+        if !(discriminant >= T::ZERO && square >= T::from_f64(NEAREST_WRIST_M * NEAREST_WRIST_M)) {
             return Err(self.unreachable(square));
         }
+        let root = discriminant.sqrt();
         // The boom line from the line to the wrist: a2·rotor = (square + a2² − a3² + i·√)·D / 2|D|².
-        let turn = Vec2::new(square + self.balance, discriminant.sqrt());
+        let turn = Vec2::new(square + self.balance, root);
         let boom = turn.complex_mul(wrist).scale(self.half_over_a2 / square);
-        let arm = (wrist - boom.scale(self.a2)).scale(self.one_over_a3);
-        Ok((Rotor { cos: boom.x, sin: boom.z }, Rotor { cos: arm.x, sin: arm.z }))
+        // θ2 + θ3, from the knee to the wrist; θ3 itself from |D| alone, |D|² = a2² + a3² + 2·a2·a3·cos θ3.
+        let forearm = (wrist - boom.scale(self.a2)).scale(self.one_over_a3);
+        let arm =
+            Rotor { cos: (square - self.sum_of_squares) * self.half_over_a2_a3, sin: -(root * self.half_over_a2_a3) };
+        Ok(Joints {
+            boom: Rotor { cos: boom.x, sin: boom.z },
+            arm,
+            bucket: pitch * Rotor { cos: forearm.x, sin: -forearm.z },
+        })
     }
 
     #[cold]
     fn unreachable(&self, square: T) -> PoseError<T> {
         let distance = square.sqrt();
         let outer = self.a2 + self.a3;
-        let by = if distance > outer { distance - outer } else { distance - self.inner_square.sqrt() };
+        let by = if distance > outer {
+            distance - outer
+        } else {
+            let (inner, nearest) = (self.inner_square.sqrt(), T::from_f64(NEAREST_WRIST_M));
+            distance - if inner > nearest { inner } else { nearest }
+        };
         PoseError::Unreachable { by }
     }
 }
@@ -152,4 +172,37 @@ pub fn pitch_from_digging_angle<T: Real>(bottom: Rotor<T>, digging: Rotor<T>) ->
 #[inline]
 pub fn digging_angle<T: Real>(bottom: Rotor<T>, pitch: Rotor<T>) -> Rotor<T> {
     pitch * bottom.inverse()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tip<T: Real>(reach: f64, height: f64) -> PlaneTip<T> {
+        PlaneTip { reach: T::from_f64(reach), height: T::from_f64(height), pitch: Rotor::IDENTITY }
+    }
+
+    #[test]
+    fn a_wrist_next_to_the_boom_pin_is_unreachable_even_where_boom_and_arm_are_equally_long() {
+        // 2.4e-20 squared survives in f32, and a quotient by it does not.
+        let chain = Chain::<f32>::new([0.0, 2.0, 2.0, 1.0]);
+        for height in [0.0, 1e-30, 2.4e-20, 1e-12, 5e-7] {
+            let found = chain.joints(&tip(1.0, height));
+            assert!(matches!(found, Err(PoseError::Unreachable { .. })), "{height}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_wrist_two_micrometres_from_the_boom_pin_folds_equal_links_together() {
+        let chain = Chain::<f64>::new([0.0, 2.0, 2.0, 1.0]);
+        let folded = chain.joints(&tip(1.0, 2e-6)).map(|joints| joints.arm);
+        assert!(folded.is_ok_and(|arm| (arm.cos + 1.0).abs() < 1e-11 && (arm.sin + 1e-6).abs() < 1e-11), "{folded:?}");
+    }
+
+    #[test]
+    fn the_unreachable_side_is_told_by_the_sign() {
+        let chain = Chain::<f64>::new([0.0, 3.0, 1.0, 1.0]);
+        assert_eq!(chain.joints(&tip(5.5, 0.0)), Err(PoseError::Unreachable { by: 0.5 }));
+        assert_eq!(chain.joints(&tip(2.5, 0.0)), Err(PoseError::Unreachable { by: -0.5 }));
+    }
 }

@@ -50,11 +50,12 @@ pub enum PoseError<T> {
         /// Signed excess, m.
         by: T,
     },
-    /// The cylinder's triangle or the bucket's four-bar does not close: its sides miss each other by `by` metres.
+    /// The cylinder's triangle or the bucket's four-bar does not close: its sides miss each other by `by` metres, or a
+    /// joint's pin would lie `by` metres beyond its dead point.
     NoAssembly {
         /// Which cylinder's linkage.
         cylinder: Cylinder,
-        /// How much longer the longest side is than the others reach, m.
+        /// How much longer the longest side is than the others reach, or how far the pin is beyond, m.
         by: T,
     },
 }

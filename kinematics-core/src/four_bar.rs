@@ -87,7 +87,7 @@ impl<T: Real> FourBar<T> {
     }
 
     /// Rotor of θ4 → cylinder length (m): K from θ4, J from the circles (I, r) and (K, c) on the + side,
-    /// `J = I + (r/|d|)·R(+a)·d` with d = K − I.
+    /// `J = I + (r/|d|)·R(+a)·d` with d = K − I. An angle beyond a dead point has none.
     #[inline(always)]
     pub fn length(&self, rotor: Rotor<T>) -> Result<T, Gap<T>> {
         let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
@@ -100,8 +100,30 @@ impl<T: Real> FourBar<T> {
         // J − I = (balance + i·√discriminant)·d / 2|d|²; |J − E|² by its product with I − E.
         let along = d.dot(self.pivot_from_base);
         let across = d.cross(self.pivot_from_base);
-        let length_squared = self.squares + (balance * along + discriminant.sqrt() * across) / square;
-        if length_squared > T::ZERO { Ok(length_squared.sqrt()) } else { Ok(T::ZERO) }
+        let root = discriminant.sqrt();
+        let length_squared = self.squares + (balance * along + root * across) / square;
+        // 2|d|² times (I − E) × (J − I) and (K − P) × (J − P): beyond a dead point of rocker or coupler the same
+        // cylinder length belongs to another bucket angle.
+        let rocker_side = root * along - balance * across;
+        let coupler_side = root * (square + d.dot(self.pivot_from_pin))
+            + (square - self.rocker_balance) * d.cross(self.pivot_from_pin);
+        if rocker_side > T::ZERO && coupler_side > T::ZERO && length_squared > T::ZERO {
+            Ok(length_squared.sqrt())
+        } else {
+            Err(self.beyond(rocker_side, coupler_side, square, length_squared))
+        }
+    }
+
+    /// [`FourBar::length`] without the checks: beyond a dead point the length of another angle, or not a number.
+    #[inline(always)]
+    pub fn length_unchecked(&self, rotor: Rotor<T>) -> T {
+        let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
+        let square = d.norm_squared();
+        let balance = square + self.rocker_balance;
+        let discriminant = self.four_rocker * square - balance * balance;
+        let along = d.dot(self.pivot_from_base);
+        let across = d.cross(self.pivot_from_base);
+        (self.squares + (balance * along + discriminant.sqrt() * across) / square).sqrt()
     }
 
     /// |J − P|², |J − P|² + |H|² − c², and what is under the root.
@@ -119,6 +141,17 @@ impl<T: Real> FourBar<T> {
         let v = turn.complex_mul(j).complex_mul(self.unwind);
         let reciprocal = T::ONE / square;
         Rotor { cos: v.x * reciprocal, sin: v.z * reciprocal }
+    }
+
+    /// How far the rocker pivot lies beyond the cylinder's line, or the bucket pin beyond the coupler's.
+    #[cold]
+    fn beyond(&self, rocker_side: T, coupler_side: T, square: T, length_squared: T) -> Gap<T> {
+        let twice = square + square;
+        if rocker_side > T::ZERO {
+            Gap(-coupler_side / (twice * self.sides[1]))
+        } else {
+            Gap(-rocker_side / (twice * length_squared.sqrt()))
+        }
     }
 
     /// By how much a triangle of `side`, the coupler and √square misses closing.

@@ -41,6 +41,7 @@ pub mod machine;
 pub mod matrix;
 mod real;
 mod rotor;
+mod sector;
 mod sqrt;
 pub mod swing;
 pub mod triangle;

@@ -3,6 +3,7 @@
 use crate::chain::{Chain, Joints, PlaneTip};
 use crate::four_bar::{FourBar, Gap};
 use crate::geometry::{GeometryError, PinGeometry, Stroke};
+use crate::sector::Sector;
 use crate::swing::SwingCylinder;
 use crate::triangle::{Side, Triangle};
 use crate::{Cylinder, PoseError, Real, Rotor};
@@ -83,6 +84,8 @@ pub struct Machine<T> {
     bucket: FourBar<T>,
     chain: Chain<T>,
     strokes: [StrokeCheck<T>; 3],
+    /// Joint angles of boom, arm, bucket over their strokes, tolerance included.
+    sectors: [Sector<T>; 3],
     swing: Option<SwingCylinder<T>>,
 }
 
@@ -110,6 +113,7 @@ impl<T: Real> Machine<T> {
             bucket: g.four_bar(),
             chain: Chain::new([g.boom_pin_x_m, g.boom_m, g.arm_m, g.bucket_m]),
             strokes: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(StrokeCheck::new),
+            sectors: g.sectors()?,
             swing: g.swing.as_ref().map(SwingCylinder::from_pins),
         })
     }
@@ -164,23 +168,42 @@ impl<T: Real> Machine<T> {
     /// Joints → cylinders, inside the stroke or not: Koivo 1994 (10), (12), (14), (29), Frankel 2003 `joint_to_cyl`.
     ///
     /// # Errors
-    /// [`PoseError::NoAssembly`] when the bucket's linkage does not close.
+    /// [`PoseError::NoAssembly`] when the bucket's linkage does not close, or a joint angle lies on the far side of a dead
+    /// point, which no cylinder length reaches.
     #[inline(always)]
     pub fn joints_to_cylinders_any_stroke(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
         Ok(Cylinders {
-            boom: self.boom.length(joints.boom),
-            arm: self.arm.length(joints.arm),
+            boom: self.boom.length(joints.boom).map_err(open(Cylinder::Boom))?,
+            arm: self.arm.length(joints.arm).map_err(open(Cylinder::Arm))?,
             bucket: self.bucket.length(joints.bucket).map_err(bucket_open)?,
         })
     }
 
-    /// Joints → cylinders, strokes checked. A joint angle on the far side of a triangle, which no cylinder length
-    /// reaches, is an assembly error.
+    /// Joints → cylinders, strokes and assembly checked.
     ///
     /// # Errors
     /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
     #[inline(always)]
     pub fn joints_to_cylinders(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
+        let [boom, arm, bucket] = &self.sectors;
+        if boom.contains(joints.boom) && arm.contains(joints.arm) && bucket.contains(joints.bucket) {
+            let cylinders = Cylinders {
+                boom: self.boom.length_unchecked(joints.boom),
+                arm: self.arm.length_unchecked(joints.arm),
+                bucket: self.bucket.length_unchecked(joints.bucket),
+            };
+            // Not a number only for a rotor far from unit length, which may lie in any sector.
+            if cylinders.boom + cylinders.arm + cylinders.bucket > T::ZERO {
+                return Ok(cylinders);
+            }
+        }
+        self.judge(joints)
+    }
+
+    /// The last word on joints outside their sectors: lengths within the tolerance, or the error.
+    #[cold]
+    #[inline(never)]
+    fn judge(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
         let cylinders = self.joints_to_cylinders_any_stroke(joints)?;
         self.check_strokes(&cylinders)?;
         Ok(cylinders)

@@ -139,7 +139,7 @@ impl<T: Real> Rotor<T> {
     /// The rotor of `turns` of a full circle, by polynomial: `+ − ×` only, the same bits on host and ECU.
     ///
     /// Meant for angle sensors, the bucket angle of a trajectory and configuration. The error is the rounding of
-    /// `turns` and about one of the result. Not finite in, not finite out.
+    /// `turns` and about one of the result, up to 2²⁹ turns; beyond, what comes out is no rotor. Not finite in, not finite out.
     #[inline]
     pub fn from_turns(turns: T) -> Self {
         let quarters = (turns * T::from_i32(4)).nearest_i32();
@@ -160,6 +160,15 @@ impl<T: Real> Rotor<T> {
     }
 
     /// The rotor of an angle in degrees; see [`Rotor::from_turns`].
+    ///
+    /// ```
+    /// # use kinematics_core::Rotor;
+    /// let sixty = Rotor::<f64>::from_degrees(60.0);
+    /// assert!((sixty.cos - 0.5).abs() < 1e-15);
+    /// // Rotations compose by multiplication.
+    /// let half_a_turn = sixty * sixty * sixty;
+    /// assert!((half_a_turn.angle().abs() - core::f64::consts::PI).abs() < 1e-15);
+    /// ```
     #[inline]
     pub fn from_degrees(degrees: T) -> Self {
         Self::from_turns(degrees / T::from_f64(360.0))

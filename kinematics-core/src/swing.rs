@@ -33,10 +33,11 @@ impl<T: Real> SwingCylinder<T> {
     /// Rotor of θ1 → cylinder length (m).
     ///
     /// # Errors
-    /// [`PoseError::OutOfStroke`] of the swing cylinder.
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`] of the swing cylinder.
     #[inline]
     pub fn length(&self, swing: Rotor<T>) -> Result<T, PoseError<T>> {
-        let length = self.triangle.length(swing);
+        let length =
+            self.triangle.length(swing).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })?;
         self.stroke.check(Cylinder::Swing, length)?;
         Ok(length)
     }

@@ -94,11 +94,29 @@ impl<T: Real> Triangle<T> {
         self.vector(length).map(|v| Rotor { cos: v.x, sin: v.z })
     }
 
-    /// Rotor → cylinder length (m). The root cannot fail: |a − b| ≤ L by construction, up to rounding.
+    /// Rotor → cylinder length (m), for a scale of one.
+    ///
+    /// On the far side of a dead point the same length belongs to another rotor, so there is none: the error is how far the
+    /// joint's pin lies beyond the cylinder's line (m).
     #[inline(always)]
-    pub fn length(&self, rotor: Rotor<T>) -> T {
+    pub fn length(&self, rotor: Rotor<T>) -> Result<T, T> {
         let square = self.squares + (rotor.cos * self.back.x + rotor.sin * self.back.z);
-        if square > T::ZERO { square.sqrt() } else { T::ZERO }
+        // sin α/2ab
+        let side = rotor.to_vec().dot(self.across);
+        if side > T::ZERO && square > T::ZERO { Ok(square.sqrt()) } else { Err(self.beyond(side, square)) }
+    }
+
+    /// [`Triangle::length`] without the check: beyond a dead point the length of another rotor.
+    #[inline(always)]
+    pub fn length_unchecked(&self, rotor: Rotor<T>) -> T {
+        (self.squares + (rotor.cos * self.back.x + rotor.sin * self.back.z)).sqrt()
+    }
+
+    /// ab·|sin α|/L
+    #[cold]
+    fn beyond(&self, side: T, square: T) -> T {
+        let twice_ab = (self.sum.hi * self.sum.hi - self.difference.hi * self.difference.hi) * T::from_f64(0.5);
+        -(side * twice_ab * twice_ab) * T::from_f64(0.5) / square.sqrt()
     }
 
     #[inline(always)]

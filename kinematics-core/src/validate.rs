@@ -3,8 +3,9 @@
 use crate::four_bar::FourBar;
 use crate::geometry::{CylinderPins, GeometryError, PinGeometry, Problem, Stroke};
 use crate::machine::STROKE_TOLERANCE_M;
+use crate::sector::Sector;
 use crate::triangle::{Side, Sides, Triangle};
-use crate::{Real, Vec2};
+use crate::{Real, Rotor, Vec2};
 
 /// How many cylinder lengths the four-bar is tried at: a fold shows as a changed sign at every later one.
 const SAMPLES: i32 = 512;
@@ -47,6 +48,22 @@ fn closes(fields: [&'static str; 2], sides: Sides, stroke: Stroke) -> Result<(),
         }
     }
     Ok(())
+}
+
+/// The arc between a joint's rotors at both ends of a stroke, tolerance included.
+fn sector<T: Real>(
+    side: Side,
+    fields: [&'static str; 2],
+    stroke: Stroke,
+    rotor: impl Fn(f64) -> Option<Rotor<f64>>,
+) -> Result<Sector<T>, GeometryError> {
+    let end = |field, length_m| rotor(length_m).ok_or_else(|| error(field, Problem::DoesNotClose { length_m }));
+    let shortest = end(fields[0], stroke.min_m - STROKE_TOLERANCE_M)?;
+    let longest = end(fields[1], stroke.max_m + STROKE_TOLERANCE_M)?;
+    Ok(match side {
+        Side::CounterClockwise => Sector::between(shortest, longest),
+        Side::Clockwise => Sector::between(longest, shortest),
+    })
 }
 
 impl PinGeometry {
@@ -96,6 +113,11 @@ impl PinGeometry {
 
     fn validate_bucket(&self) -> Result<(), GeometryError> {
         let b = self.bucket;
+        // Each pin by itself first: the differences below would name one pin for the other.
+        finite("bucket.base_x_m", b.base.x)?;
+        finite("bucket.base_z_m", b.base.z)?;
+        finite("bucket.rocker_pivot_x_m", b.rocker_pivot.x)?;
+        finite("bucket.rocker_pivot_z_m", b.rocker_pivot.z)?;
         pin(["bucket.base_x_m", "bucket.base_z_m"], b.base - b.rocker_pivot)?;
         let pivot_from_pin = b.rocker_pivot - self.bucket_pin();
         pin(["bucket.rocker_pivot_x_m", "bucket.rocker_pivot_z_m"], pivot_from_pin)?;
@@ -108,9 +130,10 @@ impl PinGeometry {
         closes(ends, sides, b.stroke)?;
 
         let linkage = self.four_bar::<f64>();
-        let step = (b.stroke.max_m - b.stroke.min_m) / f64::from(SAMPLES);
+        let lowest = b.stroke.min_m - STROKE_TOLERANCE_M;
+        let step = (b.stroke.max_m + STROKE_TOLERANCE_M - lowest) / f64::from(SAMPLES);
         for i in 0..=SAMPLES {
-            let length_m = b.stroke.min_m + f64::from(i) * step;
+            let length_m = lowest + f64::from(i) * step;
             let field = if 2 * i <= SAMPLES { ends[0] } else { ends[1] };
             match linkage.assembly(length_m) {
                 Ok(assembly) if assembly.forward > 0.0 && assembly.inverse > 0.0 => {}
@@ -130,6 +153,19 @@ impl PinGeometry {
         closes(ends, Sides { a: swing.base.norm(), b: swing.rod.norm() }, swing.stroke)
     }
 
+    /// The joint angles of boom, arm and bucket over their strokes, tolerance included.
+    pub(crate) fn sectors<T: Real>(&self) -> Result<[Sector<T>; 3], GeometryError> {
+        let side = self.boom_cylinder.side();
+        let boom = Triangle::<f64>::new(self.boom.base, self.boom.rod, side, 1.0);
+        let arm = Triangle::<f64>::new(self.arm_base_from_pin(), self.arm.rod, Side::Clockwise, 1.0);
+        let bucket = self.four_bar::<f64>();
+        Ok([
+            sector(side, ["boom.min_m", "boom.max_m"], self.boom.stroke, |l| boom.rotor(l).ok())?,
+            sector(Side::Clockwise, ["arm.min_m", "arm.max_m"], self.arm.stroke, |l| arm.rotor(l).ok())?,
+            sector(Side::Clockwise, ["bucket.min_m", "bucket.max_m"], self.bucket.stroke, |l| bucket.rotor(l).ok())?,
+        ])
+    }
+
     /// C from the arm pin, in the boom frame's directions.
     pub(crate) fn arm_base_from_pin(&self) -> Vec2<f64> {
         self.arm.base - Vec2::new(self.boom_m, 0.0)
@@ -143,5 +179,17 @@ impl PinGeometry {
     pub(crate) fn four_bar<T: Real>(&self) -> FourBar<T> {
         let b = self.bucket;
         FourBar::new(b.base, b.rocker_pivot, self.bucket_pin(), b.coupler_pin, b.rocker_m, b.coupler_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rocker_pivot_that_is_not_finite_is_named_and_not_the_pin_measured_from_it() {
+        let mut g = PinGeometry::EXACT_MINI;
+        g.bucket.rocker_pivot.z = f64::NAN;
+        assert_eq!(g.validate(), Err(error("bucket.rocker_pivot_z_m", Problem::NotFinite)));
     }
 }

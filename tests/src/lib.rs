@@ -1,3 +1,18 @@
 //! Helpers of the cross-crate tests.
+//!
+//! - [`machines`]: the four reference machines' pins as numbers;
+//! - [`golden`]: the golden values, read from `tests/data`;
+//! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
+//! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
+//! - [`rig`]: a controller on a bench, its inputs set by hand;
+//! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
+pub mod golden;
+pub mod machines;
+pub mod measure;
+pub mod oracle;
+pub mod promises;
 pub mod rig;
+pub mod stated;
+pub mod sweep;
+pub mod wide;
