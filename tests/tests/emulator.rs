@@ -1,0 +1,127 @@
+//! The same application on the emulated Cortex-M4F: the same bits as on the host, in the time and memory there is.
+
+use cross_tests::rig::{scenario, scenario_names};
+use firmware::Parameters;
+use hil_sim::place::{Emulator, Host, Image, Place, PlaceError};
+use hil_sim::run::{EmulatorFigures, Log, Run, RunError};
+use hil_sim::scenario::Scenario;
+
+fn run(scenario: &Scenario, seed: u64, place: &mut dyn Place) -> Log {
+    let run = Run::new(scenario, seed).unwrap_or_else(|error| panic!("{}: {error}", scenario.name));
+    run.complete(place, |_, _| {}).unwrap_or_else(|error| panic!("{}: {error}", scenario.name))
+}
+
+fn on_host(scenario: &Scenario, seed: u64) -> Log {
+    run(scenario, seed, &mut Host::new(&scenario.parameters).expect("accepted parameters"))
+}
+
+fn on_emulator(scenario: &Scenario, seed: u64, image: &Image) -> (Log, EmulatorFigures) {
+    let mut emulator = Emulator::with_parameters(image, &scenario.parameters).unwrap_or_else(|e| panic!("{e}"));
+    let log = run(scenario, seed, &mut emulator);
+    let stack = emulator.finish().unwrap_or_else(|error| panic!("{error}"));
+    let figures = EmulatorFigures::new(&log, image, stack).expect("a log of the emulator");
+    (log, figures)
+}
+
+fn controller() -> Image {
+    Image::build("ecu-emulated").unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
+    let image = controller();
+    let mut compared = 0;
+    for name in scenario_names() {
+        let scenario = scenario(&name);
+        if name == "dig-published" {
+            assert!(matches!(Run::new(&scenario, 1), Err(RunError::Refused(_))), "{name}");
+            continue;
+        }
+        let host = on_host(&scenario, 1);
+        let (emulator, figures) = on_emulator(&scenario, 1, &image);
+        println!("{name}: {:016x} on both, {figures:?}", host.output_hash);
+        for (a, b) in host.rows.iter().zip(&emulator.rows) {
+            // Byte for byte, so that the first tick that differs is named and not only the hash.
+            assert_eq!(a.outputs.to_bytes(), b.outputs.to_bytes(), "{name} at {} s", a.time_s);
+        }
+        assert_eq!(host.output_hash, emulator.output_hash, "{name}");
+        assert_eq!(host.rows.len(), emulator.rows.len(), "{name}");
+        assert!(figures.instructions_per_tick.max <= 3_000, "{name}: {figures:?}");
+        assert_eq!(figures.tick_period_jitter_ns, 0, "{name}: {figures:?}");
+        compared += 1;
+    }
+    assert!(compared >= 6);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn another_seed_gives_other_outputs_that_agree_as_well() {
+    let mut scenario = scenario("dig");
+    scenario.duration_s = 3.0;
+    let image = controller();
+    let first = on_host(&scenario, 1);
+    let second = on_host(&scenario, 2);
+    assert_ne!(first.output_hash, second.output_hash);
+    assert_eq!(on_emulator(&scenario, 2, &image).0.output_hash, second.output_hash);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_emulated_tick_and_image_stay_within_their_budgets() {
+    let mut scenario = scenario("dig");
+    scenario.duration_s = 3.0;
+    let (_, figures) = on_emulator(&scenario, 1, &controller());
+    println!("{figures:?}");
+    assert!(figures.instructions_per_tick.max <= 3_000);
+    assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 16 * 1024);
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 96 * 1024);
+    assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_maps_stay_within_their_instruction_budgets() {
+    let image = Image::build("bench-emulated").unwrap_or_else(|error| panic!("{error}"));
+    let printed = Emulator::start(&image).and_then(Emulator::printed).unwrap_or_else(|error| panic!("{error}"));
+    print!("{printed}");
+    let largest = |name: &str| -> u32 {
+        let line = printed.lines().find(|line| line.split_whitespace().next() == Some(name));
+        let count = line.and_then(|line| line.split_whitespace().last());
+        count.and_then(|count| count.parse().ok()).unwrap_or_else(|| panic!("no row `{name}` in {printed}"))
+    };
+    assert!(largest("cylinders_to_tip") <= 230);
+    assert!(largest("cylinders_to_tip_unchecked") < largest("cylinders_to_tip"));
+    assert!(largest("tip_to_cylinders") <= 200);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_image_refuses_parameters_with_the_same_words_as_the_host() {
+    let image = controller();
+    let spoilt: [fn(&mut Parameters); 3] = [
+        |p| p.motion.gain_per_s = 99.0,
+        |p| p.geometry.bucket.rocker_m = f64::NAN,
+        |p| p.dig = scenario("dig-published").dig,
+    ];
+    for spoil in spoilt {
+        let mut parameters = scenario("dig").parameters;
+        spoil(&mut parameters);
+        let refusal = |result: Result<(), PlaceError>| match result {
+            Err(PlaceError::Parameters(words)) => words,
+            other => panic!("{other:?}"),
+        };
+        let host = refusal(Host::new(&parameters).map(drop));
+        let emulator = refusal(Emulator::with_parameters(&image, &parameters).map(drop));
+        assert_eq!(host, emulator);
+    }
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn an_image_that_ends_early_is_reported_and_does_not_hang() {
+    // The bench image prints rows and ends; as a controller it gives no valid answer.
+    let image = Image::build("bench-emulated").unwrap_or_else(|error| panic!("{error}"));
+    let result = Emulator::with_parameters(&image, &scenario("dig").parameters);
+    assert!(matches!(result, Err(PlaceError::Lost { .. } | PlaceError::Parameters(_))));
+}

@@ -1,0 +1,70 @@
+//! The parameter record: every value out of its range is refused by name, and the record survives its own bytes.
+
+use cross_tests::rig::scenario;
+use firmware::{Ecu, Parameters};
+
+type Spoil = fn(&mut Parameters);
+
+const SPOILT: [(&str, Spoil); 30] = [
+    ("links.boom_m", |p| p.geometry.boom_m = -1.0),
+    ("boom.base_x_m", |p| p.geometry.boom.base.x = f64::NAN),
+    ("sensor.min_code", |p| p.cylinder_sensors[0].min_code = 60_000),
+    ("sensor.tolerance_codes", |p| p.cylinder_sensors[1].tolerance_codes = 60_000),
+    ("sensor.max_code", |p| p.cylinder_sensors[2].max_code = 0),
+    ("valve.dead_band", |p| p.valves[0][0].dead_band = 0.95),
+    ("valve.dead_band", |p| p.valves[2][1].dead_band = f32::NAN),
+    ("valve.full_speed_mps", |p| p.valves[1][0].full_speed_mps = 0.0),
+    ("coil.full_scale_a", |p| p.coil.full_scale_a = 0.0),
+    ("coil.resistance_ohm", |p| p.coil.resistance_ohm = -1.0),
+    ("supply.full_scale_v", |p| p.supply.full_scale_v = f32::INFINITY),
+    ("supply.min_v", |p| p.supply.min_v = 0.0),
+    ("supply.max_v", |p| p.supply.max_v = 100.0),
+    ("supply.min_v", |p| p.supply.min_v = 33.0),
+    ("command_timeout_ticks", |p| p.command_timeout_ticks = 0),
+    ("motion.preview_s", |p| p.motion.preview_s = -0.1),
+    ("motion.gain_per_s", |p| p.motion.gain_per_s = 21.0),
+    ("motion.smallest_speed_mps", |p| p.motion.smallest_speed_mps = f32::NAN),
+    ("motion.start_tolerance_m", |p| p.motion.start_tolerance_m = 0.0),
+    ("motion.following_error_m", |p| p.motion.following_error_m = 1.0),
+    ("dig.start_x_m", |p| p.dig.start_x_m = f64::NAN),
+    ("dig.start_z_m", |p| p.dig.start_z_m = 1e9),
+    ("dig.ground_z_m", |p| p.dig.ground_z_m = f64::INFINITY),
+    ("dig.reach_m", |p| p.dig.reach_m = 0.0),
+    ("dig.plunge_m", |p| p.dig.plunge_m = -1.0),
+    ("dig.scoop_radius_m", |p| p.dig.scoop_radius_m = 0.0),
+    ("dig.scoop_end_deg", |p| p.dig.scoop_end_deg = 500.0),
+    ("dig.pitch_deg", |p| p.dig.pitch_deg[2] = f64::NAN),
+    ("dig.until_s", |p| p.dig.until_s = [4.0, 3.0, 20.0]),
+    ("dig.hold_lead_s", |p| p.dig.hold_lead_s = 5.0),
+];
+
+#[test]
+fn every_value_out_of_its_range_is_refused_by_name() {
+    for (field, spoil) in SPOILT {
+        let mut parameters = scenario("dig").parameters;
+        spoil(&mut parameters);
+        match Ecu::new(&parameters) {
+            Ok(_) => panic!("{field} was accepted"),
+            Err(error) => assert!(error.to_string().contains(&format!("`{field}")), "{field}: {error}"),
+        }
+    }
+}
+
+#[test]
+fn a_swing_cylinders_sensor_needs_a_swing_cylinder() {
+    let mut parameters = scenario("dig").parameters;
+    parameters.geometry.swing = None;
+    let error = Ecu::new(&parameters).unwrap_err().to_string();
+    assert!(error.contains("`swing_sensor`"), "{error}");
+}
+
+#[test]
+fn the_record_fits_the_link_and_survives_its_own_bytes() {
+    for name in cross_tests::rig::scenario_names() {
+        let parameters = scenario(&name).parameters;
+        let bytes = postcard::to_stdvec(&parameters).unwrap();
+        println!("{name}: {} bytes", bytes.len());
+        assert!(bytes.len() <= firmware::link::RECORD_BYTES);
+        assert_eq!(postcard::from_bytes::<Parameters>(&bytes).unwrap(), parameters);
+    }
+}
