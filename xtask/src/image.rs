@@ -19,11 +19,11 @@ pub(crate) fn command(names: &[String]) -> Outcome<bool> {
     Ok(true)
 }
 
-/// Builds the named images, or all, in release; the ELFs in the order cargo finished them, each checked.
+/// Builds the named images, or all, in the profile `image`; the ELFs in the order cargo finished them, each checked.
 pub(crate) fn build(names: &[String], toolchain: &Toolchain) -> Outcome<Vec<PathBuf>> {
     announce("ARM images");
     let mut cargo = toolchain.build();
-    cargo.args(["--release", "--package", "firmware", "--message-format=json-render-diagnostics"]);
+    cargo.args(["--profile=image", "--package", "firmware", "--message-format=json-render-diagnostics"]);
     if names.is_empty() {
         cargo.arg("--bins");
     }

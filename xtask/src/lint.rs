@@ -21,8 +21,8 @@ pub(crate) fn command() -> Outcome<bool> {
     announce("clippy, ARM images");
     match arm::rustup() {
         Ok(_) => {
-            // In release, so that the macros are built once for this and for the images.
-            let images = ["clippy", "--release", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET];
+            // In the images' profile, so that the macros are built once for this and for the images.
+            let images = ["clippy", "--profile=image", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET];
             run(cargo().args(images).args(DENY))?;
         }
         // Clippy is part of the toolchain, so Debian's compiler cannot stand in.
