@@ -1,0 +1,140 @@
+//! The report of a run.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use firmware::dig::Dig;
+use kinematics_core::Machine;
+
+use super::csv::{lengths, write_log};
+use super::figures::linkage::Motion;
+use super::figures::{self, Figure, linkage, svg, timing, tracking, valves};
+use super::html::Page;
+use super::series::{Point, over_time};
+use crate::run::{Log, Summary};
+use crate::scenario::Scenario;
+
+/// Writes `report.html`, `linkage.svg` (its first figure alone), `log.csv` and `summary.json` into `folder`.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(scenario: &Scenario, log: &Log, summary: &Summary, folder: &Path) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("summary.json"), serde_json::to_string_pretty(summary)? + "\n")?;
+    write_log(log, &folder.join("log.csv"))?;
+
+    let mut page = Page::new(&format!("Simulated run: {}", scenario.name));
+    page.paragraph(&scenario.description);
+    page.note(super::SIMULATION);
+    alarms(&mut page, summary);
+    page.facts(&facts(scenario, summary));
+    for (name, figure) in figures(scenario, log)? {
+        let drawing = svg(&figure)?;
+        if let Some(name) = name {
+            fs::write(folder.join(name), &drawing)?;
+        }
+        page.figure(figure.title, &figure.caption, &drawing);
+    }
+    fs::write(folder.join("report.html"), page.finish())
+}
+
+/// The figures, each with the name of the file it also gets.
+fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static str>, Figure)>> {
+    let until_s = scenario.duration_s;
+    // Loading the scenario has checked the geometry.
+    let machine = Machine::new(&scenario.machine.geometry).map_err(io::Error::other)?;
+    let mut all = vec![
+        (Some("linkage.svg"), linkage_figure(scenario, &machine, log)),
+        (None, lengths_figure(scenario, log)),
+        (None, tracking::figure(log, until_s)),
+        (None, valves::figure(log, until_s)),
+    ];
+    all.extend(timing::figure(log, until_s).map(|figure| (None, figure)));
+    Ok(all)
+}
+
+fn linkage_figure(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> Figure {
+    let dig = Dig::new(&scenario.dig);
+    // Standing still before and after the dig adds nothing to a path.
+    let digging = log.rows.iter().filter(|row| row.outputs.dig_tick > 0).map(|row| row.joints);
+    let mut joints: Vec<_> = digging.collect();
+    if joints.is_empty() {
+        joints = log.rows.iter().map(|row| row.joints).collect();
+    }
+    linkage::figure(&Motion {
+        machine,
+        ground_z_m: -scenario.machine.boom_pin_height_m,
+        reference: reference(&dig),
+        joints,
+        outside: Vec::new(),
+        caption: "Paths of elbow, wrist and bucket tip of the simulated machine in the boom's vertical plane while \
+                  digging, the linkage at even steps of time (first and last in black), and the path the tip should \
+                  take. Both axes have the same scale."
+            .to_owned(),
+    })
+}
+
+/// The tip's wanted path, in steps fine enough for a smooth line.
+pub(super) fn reference(dig: &Dig<f64>) -> Vec<Option<Point>> {
+    let steps = 4000;
+    let at = |i: u32| dig.tip(dig.duration() * f64::from(i) / f64::from(steps));
+    (0..=steps).map(at).map(|tip| Some((tip.reach, tip.height))).collect()
+}
+
+fn lengths_figure(scenario: &Scenario, log: &Log) -> Figure {
+    let strokes = scenario.plant.map(|model| model.stroke);
+    let names = ["boom", "arm", "bucket"].into_iter().zip(strokes).enumerate();
+    let traces: Vec<_> = names
+        .map(|(i, (cylinder, stroke))| figures::lengths::Trace {
+            cylinder,
+            stroke,
+            length: over_time(log.rows.iter().map(|row| (row.time_s, Some(lengths(&row.lengths)[i])))),
+            reference: over_time(log.rows.iter().map(|row| {
+                let reference = f64::from(lengths(&row.outputs.reference)[i]);
+                (row.time_s, (row.outputs.dig_tick > 0).then_some(reference))
+            })),
+        })
+        .collect();
+    let caption = "True lengths of the simulated cylinders between their pins, over the reference the controller \
+                   follows while digging. The red lines are the travel limits.";
+    figures::lengths::figure(&traces, scenario.duration_s, &[], caption.to_owned())
+}
+
+fn alarms(page: &mut Page, summary: &Summary) {
+    let faults = summary.faults.iter().flatten();
+    let faults: Vec<_> = faults.map(|f| format!("{} (code {}) at {:.3} s", f.fault, f.code, f.at_s)).collect();
+    page.alarm("Faults", &faults);
+    let hits = summary.stop_hits.iter().flatten();
+    let hits: Vec<_> = hits.map(|h| format!("{} cylinder at {:.3} s", h.cylinder, h.at_s)).collect();
+    page.alarm("Travel stops hit", &hits);
+}
+
+fn facts<'a>(scenario: &Scenario, summary: &Summary) -> Vec<(&'a str, String)> {
+    let yes_no = |yes| if yes { "yes" } else { "no" }.to_owned();
+    let millimetres = |metres: f64| format!("{:.1} mm", metres * 1e3);
+    let place = match summary.on {
+        "host" => "this computer (host)".to_owned(),
+        "emulator" => "the emulated Cortex-M4F (emulator)".to_owned(),
+        other => other.to_owned(),
+    };
+    let mut facts = vec![
+        ("Machine", format!("{}: {}", scenario.machine.name, scenario.machine.description)),
+        ("The controller ran on", place),
+        ("Seed of the sensor noise", summary.seed.to_string()),
+        ("Simulated", format!("{} s, {} ticks", scenario.duration_s, summary.ticks)),
+        ("Dig completed", yes_no(summary.dig_completed)),
+    ];
+    facts.extend(summary.tip_error_rms_m.map(|m| ("Tip error while digging, RMS", millimetres(m))));
+    facts.extend(summary.tip_error_max_m.map(|m| ("Tip error while digging, largest", millimetres(m))));
+    facts.extend(summary.real_time_factor.map(|f| ("Speed of the simulation", format!("{f:.0} × real time"))));
+    facts.extend(summary.output_hash.clone().map(|hash| ("Hash of all outputs", hash)));
+    if let Some(e) = &summary.emulator {
+        let counts = e.instructions_per_tick;
+        facts.push(("Instructions per tick", format!("{} median, {} largest", counts.median, counts.max)));
+        facts.push(("Jitter of the tick's period", format!("{} ns", e.tick_period_jitter_ns)));
+        facts.push(("Stack at its deepest", format!("{} bytes", e.stack_peak_bytes)));
+        facts.push(("Image", format!("{} bytes flash, {} bytes static RAM", e.flash_bytes, e.ram_bytes)));
+    }
+    facts
+}
