@@ -11,6 +11,7 @@ use firmware::frame::{INPUT_BYTES, OUTPUT_BYTES};
 use firmware::link::{KIND_END, KIND_TICK, REPLY_BYTES};
 use firmware::{Inputs, Outputs, Parameters};
 
+use super::one_core::OneCore;
 use super::{Image, Place, PlaceError, Reply, Timing};
 
 /// log2 of the virtual nanoseconds an instruction takes; the image's stopwatch counts on it.
@@ -24,6 +25,7 @@ pub struct Emulator {
     to_image: ChildStdin,
     from_image: ChildStdout,
     guard: Guard,
+    _one_core: OneCore,
 }
 
 impl Emulator {
@@ -32,6 +34,7 @@ impl Emulator {
     /// # Errors
     /// The emulator is not there.
     pub fn start(image: &Image) -> Result<Self, PlaceError> {
+        let one_core = OneCore::take();
         let mut child = Command::new("qemu-system-arm")
             .args(["-machine", "netduinoplus2", "-display", "none", "-serial", "none", "-monitor", "none"])
             .args(["-semihosting-config", "enable=on,target=native"])
@@ -47,7 +50,7 @@ impl Emulator {
         let (Some(to_image), Some(from_image)) = pipes else { unreachable!("both were asked for as pipes") };
         let child = Arc::new(Mutex::new(child));
         let guard = Guard::watch(child.clone());
-        Ok(Self { child, to_image, from_image, guard })
+        Ok(Self { child, to_image, from_image, guard, _one_core: one_core })
     }
 
     /// Starts the controller's image and gives it its parameters.

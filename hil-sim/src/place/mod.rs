@@ -3,6 +3,7 @@
 mod emulator;
 mod host;
 mod image;
+mod one_core;
 
 use firmware::{Inputs, Outputs};
 

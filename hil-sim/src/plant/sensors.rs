@@ -34,7 +34,7 @@ impl Noise {
     }
 }
 
-/// The ADC code of a length [m] with this error added [m]; saturates at the converter's ends.
+/// The ADC code of a length (m) with this error added (m); saturates at the converter's ends.
 pub fn code(sensor: &PositionSensor, length_m: f64, error_m: f64) -> u16 {
     let stroke = sensor.stroke;
     let span = f64::from(sensor.max_code) - f64::from(sensor.min_code);
