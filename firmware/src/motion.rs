@@ -33,6 +33,21 @@ enum Mode {
     Done,
 }
 
+/// Passes speeds worth moving for. Sensor noise around rest must not make the spool hop across its dead band: once at rest, a
+/// cylinder starts at the smallest speed and stops below half of it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Creep {
+    moving: bool,
+}
+
+impl Creep {
+    fn pass(&mut self, speed: f32, smallest: f32) -> f32 {
+        let threshold = if self.moving { 0.5 * smallest } else { smallest };
+        self.moving = speed >= threshold || speed <= -threshold;
+        if self.moving { speed } else { 0.0 }
+    }
+}
+
 /// The motion stage.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
@@ -44,6 +59,7 @@ pub struct Motion {
     start_tolerance_m: f32,
     following_error_m: f32,
     mode: Mode,
+    creep: [Creep; 3],
 }
 
 fn for_each(a: Cylinders<f32>, b: Cylinders<f32>, f: impl Fn(f32, f32) -> f32) -> Cylinders<f32> {
@@ -65,12 +81,14 @@ impl Motion {
             start_tolerance_m: p.start_tolerance_m,
             following_error_m: p.following_error_m,
             mode: Mode::Hold,
+            creep: [Creep::default(); 3],
         }
     }
 
     /// Back to holding: the next dig starts over.
     pub(crate) fn reset(&mut self) {
         self.mode = Mode::Hold;
+        self.creep = [Creep::default(); 3];
     }
 
     /// Speeds for this tick; `running` tells that the gate was open in the last one, and without it motion starts over.
@@ -86,7 +104,7 @@ impl Motion {
     ) -> Result<Wanted, Fault> {
         let hold = Wanted { speeds: NO_LENGTHS, reference: *lengths, dig_tick: 0 };
         if !running || intent.request == Request::Neutral {
-            self.mode = Mode::Hold;
+            self.reset();
             return Ok(hold);
         }
         match self.mode {
@@ -124,11 +142,14 @@ impl Motion {
             return Err(Fault::FollowingError);
         }
         let feed_forward = for_each(next_ahead, ahead, |next, now| (next - now) * TICKS_PER_S as f32);
-        let speeds = for_each(feed_forward, error, |speed, error| {
-            let speed = speed + self.gain_per_s * error;
-            // Sensor noise at rest must not make the spool hop across its dead band.
-            if speed < self.smallest_speed_mps && speed > -self.smallest_speed_mps { 0.0 } else { speed }
-        });
+        let asked = for_each(feed_forward, error, |speed, error| speed + self.gain_per_s * error);
+        let [boom, arm, bucket] = &mut self.creep;
+        let smallest = self.smallest_speed_mps;
+        let speeds = Cylinders {
+            boom: boom.pass(asked.boom, smallest),
+            arm: arm.pass(asked.arm, smallest),
+            bucket: bucket.pass(asked.bucket, smallest),
+        };
         Ok(Wanted { speeds, reference, dig_tick: dig_tick + 1 })
     }
 
