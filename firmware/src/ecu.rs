@@ -4,12 +4,13 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::{Command, Intent};
 use crate::dig::Dig;
+use crate::fault::{Fault, State};
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs};
 use crate::motion::{Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
-use crate::supervisor::{Fault, Gate, State, Supervisor, Watched};
+use crate::supervisor::{Gate, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::Valve;
 

@@ -1,7 +1,7 @@
 //! [`Inputs`] and [`Outputs`] as bytes, little-endian, fixed size: for the link to the harness and for the output hash.
 
+use crate::fault::{Fault, State};
 use crate::io::{Inputs, Outputs, Request};
-use crate::supervisor::{Fault, State};
 use kinematics_core::{Cylinders, Joints, PlaneTip, Pose, Rotor};
 
 /// Bytes of [`Inputs`].

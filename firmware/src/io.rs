@@ -2,7 +2,7 @@
 
 use kinematics_core::{Cylinders, Pose, Rotor};
 
-use crate::supervisor::{Fault, State};
+use crate::fault::{Fault, State};
 
 /// The four spools and their position sensors, in the order of every array here.
 pub const SPOOLS: [&str; 4] = ["swing", "boom", "arm", "bucket"];

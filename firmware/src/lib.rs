@@ -15,6 +15,7 @@
 pub mod command;
 pub mod dig;
 mod ecu;
+pub mod fault;
 pub mod frame;
 pub mod io;
 pub mod link;
@@ -27,9 +28,9 @@ pub mod travel;
 pub mod valve;
 
 pub use ecu::Ecu;
+pub use fault::{Fault, State};
 pub use io::{Inputs, Outputs, Request};
 pub use parameters::{ParameterError, Parameters};
-pub use supervisor::{Fault, State};
 
 /// The control period, s.
 pub const TICK_S: f32 = 0.001;

@@ -5,9 +5,9 @@ use kinematics_core::{Cylinders, Machine};
 
 use crate::command::Intent;
 use crate::dig::Dig;
+use crate::fault::Fault;
 use crate::io::{NO_LENGTHS, Request};
 use crate::parameters::MotionParameters;
-use crate::supervisor::Fault;
 use crate::{TICK_S, TICKS_PER_S};
 
 /// What the motion stage hands on.

@@ -1,7 +1,7 @@
 //! Swing θ1: an angle sensor ([`Rotor::from_turns`]) or a backhoe's swing cylinder, and the plane it turns.
 
 use crate::geometry::SwingPins;
-use crate::machine::StrokeCheck;
+use crate::stroke::StrokeCheck;
 use crate::triangle::{Side, Triangle};
 use crate::{Cylinder, PlaneTip, PoseError, Real, Rotor};
 

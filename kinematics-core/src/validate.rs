@@ -2,8 +2,8 @@
 
 use crate::four_bar::FourBar;
 use crate::geometry::{CylinderPins, GeometryError, PinGeometry, Problem, Stroke};
-use crate::machine::STROKE_TOLERANCE_M;
 use crate::sector::Sector;
+use crate::stroke::STROKE_TOLERANCE_M;
 use crate::triangle::{Side, Sides, Triangle};
 use crate::{Real, Rotor, Vec2};
 

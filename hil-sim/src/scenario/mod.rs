@@ -96,8 +96,17 @@ impl Scenario {
         let invalid = |what| ScenarioError::Invalid { file: file.to_owned(), what };
         let scenario = file::parse(text).map_err(invalid)?;
         check::ranges(&scenario).map_err(invalid)?;
-        let machine = MachineFile::load(&scenario.machine)
+        let machine = MachineFile::load(&machine_path(&scenario.machine, file))
             .map_err(|source| ScenarioError::Machine { file: file.to_owned(), source })?;
         build::scenario(scenario, machine).map_err(invalid)
+    }
+}
+
+/// A machine given by path stands where the scenario's folder says; a bare name is left to the machine folders.
+fn machine_path(machine: &str, scenario: &Path) -> String {
+    let is_path = machine.contains(['/', '\\']) || machine.ends_with(".toml");
+    match scenario.parent() {
+        Some(folder) if is_path => folder.join(machine).display().to_string(),
+        _ => machine.to_owned(),
     }
 }

@@ -10,7 +10,7 @@ mod app {
     use firmware::{Ecu, Inputs, Parameters};
     use stm32f4::stm32f405::TIM2;
 
-    /// The emulator clocks TIM2 at 1 GHz.
+    /// The emulator clocks TIM2 at 1 GHz, and starts over after as many counts as the register says (the chip: one more).
     const PERIOD_COUNTS: u32 = 1_000_000;
 
     #[shared]
@@ -29,7 +29,7 @@ mod app {
         let stopwatch = Stopwatch::start(cx.device.TIM5);
         let Ok((link, ecu)) = connect() else { fail() };
         let timer = cx.device.TIM2;
-        timer.arr().write(|w| w.arr().set(PERIOD_COUNTS - 1));
+        timer.arr().write(|w| w.arr().set(PERIOD_COUNTS));
         timer.dier().write(|w| w.uie().enabled());
         timer.cr1().write(|w| w.cen().enabled());
         (Shared {}, Local { link, ecu, stopwatch, timer })

@@ -1,0 +1,81 @@
+//! What the linked ARM images are made of: no fused multiply-add, which would round once where the host rounds twice.
+
+use hil_sim::place::Image;
+use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
+
+/// A Thumb instruction's halfwords; the second is 0 for a short one.
+type Instruction = (u16, u16);
+
+/// VFMA, VFMS, VFNMA, VFNMS (ARM DDI 0403E, A7.7.228, A7.7.230): coprocessor 10 or 11, opcodes 1D01 and 1D10.
+fn is_fused_multiply_add((first, second): Instruction) -> bool {
+    let coprocessor = second & 0x0e10 == 0x0a00;
+    (first & 0xffb0 == 0xee90 || first & 0xffb0 == 0xeea0) && coprocessor
+}
+
+/// Any VFP multiply or addition: shows that the scan sees floating-point code at all.
+fn is_float_multiply((first, second): Instruction) -> bool {
+    first & 0xffb0 == 0xee20 && second & 0x0e50 == 0x0a00
+}
+
+/// Every Thumb instruction of the ELF's code, data between it left out by the mapping symbols `$t` and `$d`.
+fn instructions(elf: &[u8]) -> Vec<Instruction> {
+    let file = object::File::parse(elf).expect("an ELF");
+    let mut marks: Vec<(u64, bool)> = file
+        .symbols()
+        .filter_map(|symbol| match symbol.name().ok()?.get(..2)? {
+            "$t" => Some((symbol.address() & !1, true)),
+            "$d" => Some((symbol.address() & !1, false)),
+            _ => None,
+        })
+        .collect();
+    marks.sort_unstable();
+    assert!(!marks.is_empty(), "no mapping symbols: the image was stripped");
+    let mut found = Vec::new();
+    for section in file.sections().filter(|section| section.kind() == SectionKind::Text) {
+        let bytes = section.data().expect("the section's bytes");
+        let halfword = |at: usize| bytes.get(at..at + 2).map(|b| u16::from_le_bytes([b[0], b[1]]));
+        let mut at = 0;
+        while let Some(first) = halfword(at) {
+            let address = section.address() + at as u64;
+            let before = marks.partition_point(|&(mark, _)| mark <= address);
+            let is_code = before > 0 && marks[before - 1].1;
+            if !is_code {
+                at += 2;
+                continue;
+            }
+            // Halfwords from 0b11101 upwards begin an instruction of two.
+            let long = first >> 11 >= 0b11101;
+            found.push((first, if long { halfword(at + 2).unwrap_or(0) } else { 0 }));
+            at += if long { 4 } else { 2 };
+        }
+    }
+    found
+}
+
+#[test]
+fn the_scan_knows_the_fused_instructions() {
+    // vfma.f32 s0, s1, s2; vfms.f32 s0, s1, s2; vfnma.f32 s0, s1, s2; vfnms.f32 s0, s1, s2, as the assembler encodes them.
+    for fused in [(0xeea0, 0x0a81), (0xeea0, 0x0ac1), (0xee90, 0x0ac1), (0xee90, 0x0a81)] {
+        assert!(is_fused_multiply_add(fused), "{fused:04x?}");
+    }
+    // vmul, vadd, vmla, vdiv, vsqrt of the same registers.
+    for other in [(0xee20, 0x0a81), (0xee30, 0x0a81), (0xee00, 0x0a81), (0xee80, 0x0a81), (0xeeb1, 0x0ae0)] {
+        assert!(!is_fused_multiply_add(other), "{other:04x?}");
+    }
+    assert!(is_float_multiply((0xee20, 0x0a81)));
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn no_image_has_a_fused_multiply_add() {
+    for name in ["ecu-emulated", "bench-emulated"] {
+        let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
+        let elf = std::fs::read(&image.path).expect("the image");
+        let all = instructions(&elf);
+        let multiplies = all.iter().filter(|&&i| is_float_multiply(i)).count();
+        let fused = all.iter().filter(|&&i| is_fused_multiply_add(i)).count();
+        println!("{name}: {} instructions, {multiplies} float multiplies, {fused} fused", all.len());
+        assert!(multiplies > 50, "{name}: the scan misses the floating-point code");
+        assert_eq!(fused, 0, "{name}");
+    }
+}
