@@ -4,7 +4,7 @@ use crate::geometry::Stroke;
 use crate::{Cylinder, PoseError, Real};
 
 /// A length this close outside an end of the stroke counts as inside, m.
-pub const STROKE_TOLERANCE_M: f64 = 1e-6;
+pub const STROKE_TOLERANCE_M: f64 = 1e-6 + 1e-12;
 
 /// The stroke in T, widened by the tolerance; the ends themselves for the excess.
 #[derive(Clone, Copy, Debug)]

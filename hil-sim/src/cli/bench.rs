@@ -4,12 +4,14 @@ mod emulated;
 mod host;
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+
 use serde::Serialize;
+
+use super::print;
 
 /// Arguments of `hil bench`.
 #[derive(Debug, Args)]
@@ -70,10 +72,10 @@ fn bench(args: &BenchArgs) -> Result<(), AnyError> {
     match args.json.as_deref() {
         Some(file) if file == Path::new("-") => {
             eprint!("{table}");
-            std::io::stdout().write_all(json.as_bytes())?;
+            print(&json)?;
         }
         Some(file) => {
-            print!("{table}");
+            print(&table)?;
             std::fs::write(file, json).map_err(|e| format!("cannot write {}: {e}", file.display()))?;
         }
         None => print!("{table}"),
