@@ -29,7 +29,19 @@ struct Scalar {
 impl Scalar {
     /// Coordinates, offsets, heights and angles may have any sign; everything else is a length.
     fn is_length(&self) -> bool {
-        let signed = ["base_", "rod_", "rocker_pivot_", "coupler_pin_", "boom_pin_", "a1_m", "l_ah_m", "l_he_m"];
+        let signed = [
+            "base_",
+            "rod_",
+            "rocker_pivot_",
+            "coupler_pin_",
+            "boom_pin_",
+            "boom_centre_",
+            "arm_centre_",
+            "bucket_centre_",
+            "a1_m",
+            "l_ah_m",
+            "l_he_m",
+        ];
         !signed.iter().any(|prefix| self.key.starts_with(prefix)) && !self.key.ends_with("_deg")
     }
 }
