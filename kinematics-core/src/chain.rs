@@ -132,7 +132,7 @@ impl<T: Real> Chain<T> {
         if !(discriminant >= T::ZERO && square >= T::from_f64(NEAREST_WRIST_M * NEAREST_WRIST_M)) {
             return Err(self.unreachable(square));
         }
-        let root = discriminant.sqrt();
+        let root = discriminant.sqrt_of_magnitude();
         // The boom line from the line to the wrist: a2·rotor = (square + a2² − a3² + i·√)·D / 2|D|².
         let turn = Vec2::new(square + self.balance, root);
         let boom = turn.complex_mul(wrist).scale(self.half_over_a2 / square);

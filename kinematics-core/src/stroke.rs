@@ -25,13 +25,20 @@ impl<T: Real> StrokeCheck<T> {
         }
     }
 
+    /// Whether the length lies in the stroke, tolerance included; false for what is not a number.
     #[inline(always)]
-    pub(crate) fn check(&self, cylinder: Cylinder, length: T) -> Result<(), PoseError<T>> {
-        if length >= self.lowest && length <= self.highest { Ok(()) } else { Err(self.excess(cylinder, length)) }
+    pub(crate) fn contains(&self, length: T) -> bool {
+        length >= self.lowest && length <= self.highest
     }
 
+    #[inline(always)]
+    pub(crate) fn check(&self, cylinder: Cylinder, length: T) -> Result<(), PoseError<T>> {
+        if self.contains(length) { Ok(()) } else { Err(self.excess(cylinder, length)) }
+    }
+
+    /// The error for a length outside.
     #[cold]
-    fn excess(&self, cylinder: Cylinder, length: T) -> PoseError<T> {
+    pub(crate) fn excess(&self, cylinder: Cylinder, length: T) -> PoseError<T> {
         let by = if length > self.max { length - self.max } else { length - self.min };
         PoseError::OutOfStroke { cylinder, by }
     }
