@@ -36,7 +36,14 @@ impl Scale {
             return None;
         }
         let length = self.min_m + (f32::from(code) - self.min_code) * self.metres_per_code;
-        Some(length.clamp(self.min_m, self.max_m))
+        // Not `clamp`, which panics on bounds in the wrong order.
+        Some(if length < self.min_m {
+            self.min_m
+        } else if length > self.max_m {
+            self.max_m
+        } else {
+            length
+        })
     }
 }
 

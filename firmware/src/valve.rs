@@ -26,7 +26,13 @@ impl Direction {
 
     /// Current for a speed in this direction, A; no speed, no current.
     fn current(&self, speed: f32) -> f32 {
-        if speed > 0.0 { (self.dead_band_a + self.amperes_per_mps * speed).clamp(0.0, self.full_scale_a) } else { 0.0 }
+        if speed > 0.0 {
+            let current = self.dead_band_a + self.amperes_per_mps * speed;
+            // Not `clamp`, which panics on bounds in the wrong order.
+            if current < self.full_scale_a { current } else { self.full_scale_a }
+        } else {
+            0.0
+        }
     }
 }
 
