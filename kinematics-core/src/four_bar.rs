@@ -159,12 +159,11 @@ impl<T: Real> FourBar<T> {
     fn gap(&self, square: T, side: T) -> Gap<T> {
         let distance = square.sqrt();
         let coupler = self.sides[1];
-        let over = distance - (side + coupler);
-        if over > T::ZERO {
-            return Gap(over);
-        }
         let difference = if side > coupler { side - coupler } else { coupler - side };
-        Gap(difference - distance)
+        // Half-way between both limits' squares; next to a limit rounding may leave nothing of the gap.
+        let by =
+            if square > side * side + coupler * coupler { distance - (side + coupler) } else { difference - distance };
+        Gap(if by < T::ZERO { T::ZERO } else { by })
     }
 }
 
