@@ -2,6 +2,12 @@
 
 use crate::io::{Inputs, Request};
 
+/// A counter may miss this many messages and still count as moving on.
+const LARGEST_STEP: u8 = 10;
+
+/// Messages in a row that must move on after one that did not: a replayed handful of messages never gets this far.
+const TRUSTED: u8 = 3;
+
 /// What the operator wants now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Intent {
@@ -16,20 +22,27 @@ pub struct Intent {
 pub struct Command {
     timeout_ticks: u16,
     last_counter: Option<u8>,
+    /// Messages in a row that moved on, up to [`TRUSTED`].
+    in_a_row: u8,
     /// Ticks since the counter last moved; at the timeout it stays.
     age: u16,
 }
 
 impl Command {
     pub(crate) const fn new(timeout_ticks: u16) -> Self {
-        Self { timeout_ticks, last_counter: None, age: timeout_ticks }
+        Self { timeout_ticks, last_counter: None, in_a_row: 0, age: timeout_ticks }
     }
 
-    /// This tick's intent. Nothing is fresh before the counter has moved once.
+    /// This tick's intent. Nothing is fresh before the counter has moved on three times; a step backwards or a leap starts over.
     pub fn read(&mut self, inputs: &Inputs) -> Intent {
-        let moved = self.last_counter.is_some_and(|last| last != inputs.command_counter);
+        let step = self.last_counter.map_or(0, |last| inputs.command_counter.wrapping_sub(last));
         self.last_counter = Some(inputs.command_counter);
-        if moved {
+        if step > LARGEST_STEP {
+            self.in_a_row = 0;
+        } else if step > 0 && self.in_a_row < TRUSTED {
+            self.in_a_row += 1;
+        }
+        if step > 0 && self.in_a_row == TRUSTED {
             self.age = 0;
         } else if self.age < self.timeout_ticks {
             self.age += 1;

@@ -65,10 +65,12 @@ impl Ecu {
         let watched = Watched { intent, supply_v, stage_fault: wanted.err() };
         let gate = self.supervisor.judge(inputs, &watched);
 
-        let mut wanted = wanted.unwrap_or(Wanted { speeds: NO_LENGTHS, reference: self.lengths, dig_tick: 0 });
-        if gate == Gate::Closed {
-            wanted.speeds = NO_LENGTHS;
-        }
+        // Whatever motion wanted, behind a closed gate nothing is wanted.
+        let nothing = Wanted { speeds: NO_LENGTHS, reference: self.lengths, dig_tick: 0 };
+        let wanted = match (gate, wanted) {
+            (Gate::Open, Ok(wanted)) => wanted,
+            _ => nothing,
+        };
         let coils = self.valve.drive(gate, &wanted.speeds, supply_v);
         let outputs = Outputs {
             tick: self.tick,

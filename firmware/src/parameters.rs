@@ -178,6 +178,14 @@ impl PositionSensor {
     }
 }
 
+impl PositionSensor {
+    /// The sensor was calibrated on the cylinder it stands on: another stroke would give a plausible wrong pose.
+    fn spans(&self, stroke: Stroke) -> Result<(), ParameterError> {
+        within("sensor.stroke.min_m", self.stroke.min_m, [stroke.min_m; 2])?;
+        within("sensor.stroke.max_m", self.stroke.max_m, [stroke.max_m; 2])
+    }
+}
+
 impl Parameters {
     /// Checks every value.
     ///
@@ -188,7 +196,15 @@ impl Parameters {
         if let SwingSensor::Cylinder(sensor) = &self.swing_sensor {
             sensor.validate()?;
         }
-        self.cylinder_sensors.iter().try_for_each(PositionSensor::validate)?;
+        let g = &self.geometry;
+        let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
+        for (sensor, stroke) in self.cylinder_sensors.iter().zip(strokes) {
+            sensor.validate()?;
+            sensor.spans(stroke)?;
+        }
+        if let (SwingSensor::Cylinder(sensor), Some(swing)) = (&self.swing_sensor, &g.swing) {
+            sensor.spans(swing.stroke)?;
+        }
         for direction in self.valves.iter().flatten() {
             within("valve.dead_band", direction.dead_band.into(), [0.0, 0.9])?;
             within("valve.full_speed_mps", direction.full_speed_mps.into(), [0.001, 5.0])?;
@@ -211,7 +227,8 @@ impl MotionParameters {
         within("motion.gain_per_s", self.gain_per_s.into(), [0.0, 20.0])?;
         within("motion.smallest_speed_mps", self.smallest_speed_mps.into(), [0.0, 0.1])?;
         within("motion.start_tolerance_m", self.start_tolerance_m.into(), [0.001, 0.5])?;
-        within("motion.following_error_m", self.following_error_m.into(), [0.001, 0.5])
+        // A start farther off than the following error would be a fault in the first tick.
+        within("motion.following_error_m", self.following_error_m.into(), [self.start_tolerance_m.into(), 0.5])
     }
 }
 

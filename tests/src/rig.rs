@@ -98,7 +98,7 @@ impl Rig {
     pub fn start(&mut self) -> Outputs {
         self.inputs.enable = false;
         self.inputs.request = Request::Neutral;
-        self.ticks(3);
+        self.ticks(5);
         self.inputs.enable = true;
         let outputs = self.tick();
         assert_eq!(outputs.state, State::Running, "{:?}", outputs.fault);

@@ -55,8 +55,8 @@ fn the_estimate_of_the_tip_is_not_what_the_error_is_taken_from() {
     scenario.sensor_noise_m = 0.0;
     let honest = run(&scenario, 1).1.tip_error_rms_m.unwrap();
     for sensor in &mut scenario.parameters.cylinder_sensors {
-        sensor.stroke.min_m -= 0.01;
-        sensor.stroke.max_m -= 0.01;
+        sensor.min_code += 1400;
+        sensor.max_code += 1400;
     }
     let (log, summary) = run_with_true_sensors(&scenario);
     let estimated: f64 = log

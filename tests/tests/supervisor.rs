@@ -182,6 +182,35 @@ fn a_command_counter_standing_still_stops_motion_within_a_hundred_milliseconds()
 }
 
 #[test]
+fn a_counter_that_goes_back_and_forth_is_no_operator() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.sending = false;
+    let last = rig.inputs.command_counter;
+    let mut stopped_after = None;
+    for tick in 0..200_u8 {
+        rig.inputs.command_counter = last.wrapping_sub(tick % 2);
+        if is_safe(&rig.tick()) {
+            stopped_after = stopped_after.or(Some(tick));
+        }
+    }
+    assert!(stopped_after.is_some_and(|ticks| ticks <= 100), "{stopped_after:?}");
+}
+
+#[test]
+fn the_counter_may_wrap_and_miss_a_few_messages() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    rig.sending = false;
+    for tick in 0..300_u16 {
+        if tick % 50 == 0 {
+            rig.inputs.command_counter = rig.inputs.command_counter.wrapping_add(7);
+        }
+        assert!(!is_safe(&rig.tick()), "{tick}");
+    }
+}
+
+#[test]
 fn a_dig_far_from_its_start_is_a_fault_and_moves_nothing() {
     let parameters = scenario("dig").parameters;
     let mut rig = Rig::with(&parameters);

@@ -42,7 +42,7 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
         ("motion.gain_per_s", m.gain_per_s, [0.0, 20.0]),
         ("motion.smallest_speed_mps", m.smallest_speed_mps, [0.0, 0.1]),
         ("motion.start_tolerance_m", m.start_tolerance_m, [0.001, 0.5]),
-        ("motion.following_error_m", m.following_error_m, [0.001, 0.5]),
+        ("motion.following_error_m", m.following_error_m, [m.start_tolerance_m, 0.5]),
         ("plant.dead_time_s", p.dead_time_s, [0.0, 1.0]),
         ("plant.spool_lag_s", p.spool_lag_s, [0.0, 1.0]),
         ("plant.dead_band_extend", p.dead_band_extend, [0.0, 0.9]),
