@@ -10,7 +10,7 @@ use cross_tests::papers::frankel::{
 };
 use cross_tests::papers::{agree, all_agree, deg, rad, rate, steps, turn_between};
 use firmware::dig::{Dig, DigParameters};
-use kinematics_core::{Joints, Machine, PlaneTip, Rotor};
+use kinematics_core::{Cylinder, Joints, Machine, PlaneTip, PoseError, Rotor};
 use libm::{atan, atan2, cos, hypot, sin, sqrt};
 
 /// What the corrected forms have to keep to: rad or in.
@@ -179,6 +179,34 @@ fn frankel_15_has_two_solutions_and_the_search_may_find_the_wrong_one() {
 fn frankel_16_and_its_program_differ_by_a_whole_turn_that_does_not_matter() {
     for phi4 in steps(-3.0, 3.0, 30) {
         agree("(18)", bucket_cylinder(0.3, phi4, -PI), bucket_cylinder(0.3, phi4, PI), 1e-12);
+    }
+}
+
+#[test]
+fn frankel_7_gives_a_length_beyond_the_dead_point() {
+    let machine = machine();
+    // The example of `pos_to_cyl`: tip at (0, 0, −103) in, φ = 100°.
+    let tip = PlaneTip { reach: 0.0, height: -103.0 * INCH_M, pitch: Rotor::from_degrees(280.0) };
+    let j = machine.tip_to_joints(&tip).unwrap();
+    let theta = [j.boom, j.arm, j.bucket].map(Rotor::angle);
+    let [_, boom, stick] = joint_to_cyl_1_to_3([0.0, theta[0], theta[1]]);
+    let phi = [theta[0] + theta[1] - t23d(), theta[0] + theta[1] + theta[2] + tg34()];
+    let bucket = bucket_cylinder(phi[0], loop_solutions(phi)[0], PI);
+    println!("pos_to_cyl's example: {:.3?}°, cylinders {boom:.4}, {stick:.4}, {bucket:.4} in", theta.map(deg));
+    agree("θ2", deg(theta[0]), -90.407, 1e-3);
+    // They are three of the listed limits.
+    all_agree("limits", &[boom, stick, bucket], &[46.5434, 27.6990, 22.0242], 1e-4);
+    let back = cyl_to_joint([12.0, boom, stick, bucket])[1];
+    println!("and back: θ2 {:.3}°", deg(back));
+    agree("θ2 of the same cylinders", deg(back), -86.762, 1e-3);
+    // The maps refuse what no cylinder length reaches, and come back from everywhere else.
+    let found = machine.joints_to_cylinders_any_stroke(&j);
+    assert!(matches!(found, Err(PoseError::NoAssembly { cylinder: Cylinder::Boom, .. })), "{found:?}");
+    for degrees in steps(-86.0, 49.0, 100) {
+        let sent = Joints { boom: Rotor::from_degrees(degrees), ..joints(POSE) };
+        let cylinders = machine.joints_to_cylinders(&sent).unwrap();
+        let again = machine.cylinders_to_joints(&cylinders).unwrap();
+        assert!(turn_between(again.boom.angle(), rad(degrees)) < EXACT, "{degrees}°");
     }
 }
 

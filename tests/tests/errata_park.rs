@@ -150,6 +150,37 @@ fn park_13_with_18_contradicts_16() {
     assert!(far as usize * 2 > poses().len());
 }
 
+/// How fast link `k` turns in the plane under the smallest rates that move the tip as told.
+fn link_rate(theta: [f64; 4], speed: [f64; 2], k: usize) -> f64 {
+    let rates = jacobian(theta, 4).right_inverse().unwrap().times(&Matrix::column(&speed)).unwrap().entries();
+    rates[..k].iter().sum()
+}
+
+#[test]
+fn park_13_takes_the_sense_of_the_turn_from_the_wrong_sign() {
+    let (mut wrong, mut all) = (0, 0);
+    for theta in poses() {
+        let speed = [0.3, -0.1];
+        // The same arm and command in a mirror: every link turns the other way round.
+        let (mirrored, mirrored_speed) = (theta.map(|t| -t), [0.3, 0.1]);
+        for k in 1..=3 {
+            let outward = |theta: [f64; 4], v: [f64; 2]| {
+                let seen = minus(point(theta, 4), point(theta, k));
+                seen[0] * v[0] + seen[1] * v[1]
+            };
+            // −sgn[P_e^k·ẋ_e]: outward is clockwise.
+            let printed = [-outward(theta, speed), -outward(mirrored, mirrored_speed)];
+            agree("the printed sign is that of its mirror image", printed[0], printed[1], EXACT);
+            let corrected = [link_rate(theta, speed, k), link_rate(mirrored, mirrored_speed, k)];
+            agree("the turn is not", corrected[0], -corrected[1], 1e-9 * (1.0 + corrected[0].abs()));
+            wrong += printed.iter().zip(corrected).filter(|(p, c)| *p * c < 0.0).count();
+            all += 2;
+        }
+    }
+    println!("(13) has the wrong sense in {wrong} of {all} cases");
+    assert_eq!(2 * wrong, all, "one of each pair");
+}
+
 #[test]
 fn park_17_is_a_limit_of_small_steps_and_not_of_small_angles() {
     for theta in poses() {
