@@ -7,6 +7,11 @@
 use kinematics_core::{PlaneTip, Real, Rotor, Vec2};
 use serde::{Deserialize, Serialize};
 
+use crate::TICKS_PER_S;
+
+/// The control period, s; rounded to f32 it is [`crate::TICK_S`].
+const TICK: f64 = 0.001;
+
 /// A dig. Positions in the boom's plane of the base frame (origin on the swing axis at boom-pin height), m; pitches are
 /// continuous angles in degrees, not wrapped (`dig.m`'s φ + 180°).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -103,6 +108,25 @@ impl<T: Real> Dig<T> {
     /// When it ends, s.
     pub fn duration(&self) -> T {
         self.until[2]
+    }
+
+    /// Tip and pitch at a control tick after the start: the one way from ticks to time, so that what is checked before
+    /// motion is to the bit what motion follows.
+    pub fn at_tick(&self, tick: u32) -> PlaneTip<T> {
+        self.tip(Self::time_of(tick))
+    }
+
+    /// The time of a control tick, s.
+    pub fn time_of(tick: u32) -> T {
+        // Digs last minutes: far from i32's end.
+        T::from_i32(tick as i32) * T::from_f64(TICK)
+    }
+
+    /// Control ticks until the end, to the nearest.
+    pub fn ticks(&self) -> u32 {
+        let ticks = (self.duration() * T::from_i32(TICKS_PER_S as i32)).nearest_i32();
+        // Saturated at zero: a dig lasts longer.
+        u32::try_from(ticks).unwrap_or(0)
     }
 
     /// Tip and pitch at `time` (s); before the start and after the end it rests.

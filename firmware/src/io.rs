@@ -78,3 +78,16 @@ pub(crate) const NO_POSE: Pose<f32> = Pose {
 
 /// All lengths zero.
 pub(crate) const NO_LENGTHS: Cylinders<f32> = Cylinders { boom: 0.0, arm: 0.0, bucket: 0.0 };
+
+/// `x` between `low` and `high`. `f32::clamp` would link a panic for limits in the wrong order, `f32::min` and `max` differ on ±0
+/// between host and ECU.
+#[inline]
+pub(crate) fn limited(x: f32, low: f32, high: f32) -> f32 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}

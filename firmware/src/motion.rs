@@ -3,12 +3,12 @@
 
 use kinematics_core::{Cylinders, Machine};
 
+use crate::TICKS_PER_S;
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{NO_LENGTHS, Request};
 use crate::parameters::MotionParameters;
-use crate::{TICK_S, TICKS_PER_S};
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +74,7 @@ impl Motion {
     pub(crate) fn new(p: &MotionParameters, dig: Dig<f32>) -> Self {
         Self {
             dig,
-            dig_ticks: (dig.duration() * TICKS_PER_S as f32 + 0.5) as u32,
+            dig_ticks: dig.ticks(),
             preview_ticks: (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32,
             gain_per_s: p.gain_per_s,
             smallest_speed_mps: p.smallest_speed_mps,
@@ -154,7 +154,6 @@ impl Motion {
     }
 
     fn reference(&self, machine: &Machine<f32>, tick: u32) -> Result<Cylinders<f32>, Fault> {
-        let tip = self.dig.tip(tick as f32 * TICK_S);
-        machine.tip_to_cylinders(&tip).map_err(|_| Fault::Trajectory)
+        machine.tip_to_cylinders(&self.dig.at_tick(tick)).map_err(|_| Fault::Trajectory)
     }
 }

@@ -164,9 +164,15 @@ fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(),
 
 impl PositionSensor {
     fn validate(&self) -> Result<(), ParameterError> {
+        let Stroke { min_m, max_m } = self.stroke;
+        within("sensor.stroke.min_m", min_m, [0.001, 50.0])?;
+        within("sensor.stroke.max_m", max_m, [0.001, 50.0])?;
+        ordered(("sensor.stroke.min_m", min_m), ("sensor.stroke.max_m", max_m))?;
         // A stroke over fewer codes would read coarser than a tenth of a per mille.
         ordered(("sensor.min_code", f64::from(self.min_code) + 9999.0), ("sensor.max_code", f64::from(self.max_code)))?;
-        // Some codes must be left to mean a broken wire.
+        // Some codes must be left to mean a broken wire: the lowest for an open one, the highest for a short.
+        within("sensor.min_code", self.min_code.into(), [1.0, f64::from(u16::MAX)])?;
+        within("sensor.max_code", self.max_code.into(), [0.0, f64::from(u16::MAX - 1)])?;
         let room = core::cmp::min(self.min_code, u16::MAX - self.max_code);
         within("sensor.tolerance_codes", f64::from(self.tolerance_codes), [0.0, f64::from(room.saturating_sub(1))])
     }

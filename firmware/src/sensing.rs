@@ -3,7 +3,7 @@
 use kinematics_core::swing::SwingCylinder;
 use kinematics_core::{Cylinder, Cylinders, Machine, Rotor};
 
-use crate::io::Inputs;
+use crate::io::{Inputs, limited};
 use crate::parameters::{PositionSensor, SwingSensor};
 
 /// One cylinder's sensor: the stroke lies linearly between two codes.
@@ -36,7 +36,7 @@ impl Scale {
             return None;
         }
         let length = self.min_m + (f32::from(code) - self.min_code) * self.metres_per_code;
-        Some(length.clamp(self.min_m, self.max_m))
+        Some(limited(length, self.min_m, self.max_m))
     }
 }
 

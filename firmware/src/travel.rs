@@ -2,7 +2,6 @@
 
 use kinematics_core::{Machine, PoseError, Real};
 
-use crate::TICKS_PER_S;
 use crate::dig::Dig;
 
 /// A moment of a dig the machine cannot do.
@@ -16,10 +15,8 @@ pub struct Violation<T> {
 
 /// The first violation, tried at every tick of the dig.
 pub fn first_violation<T: Real>(machine: &Machine<T>, dig: &Dig<T>) -> Option<Violation<T>> {
-    let ticks_per_s = T::from_i32(TICKS_PER_S as i32);
-    let ticks = (dig.duration() * ticks_per_s).nearest_i32();
-    (0..=ticks).find_map(|tick| {
-        let time_s = T::from_i32(tick) / ticks_per_s;
-        machine.tip_to_cylinders(&dig.tip(time_s)).err().map(|error| Violation { time_s, error })
+    (0..=dig.ticks()).find_map(|tick| {
+        let refused = machine.tip_to_cylinders(&dig.at_tick(tick)).err();
+        refused.map(|error| Violation { time_s: Dig::time_of(tick), error })
     })
 }

@@ -2,7 +2,7 @@
 
 use kinematics_core::Cylinders;
 
-use crate::io::Solenoids;
+use crate::io::{Solenoids, limited};
 use crate::parameters::{Coil, ValveDirection};
 use crate::supervisor::Gate;
 
@@ -26,7 +26,7 @@ impl Direction {
 
     /// Current for a speed in this direction, A; no speed, no current.
     fn current(&self, speed: f32) -> f32 {
-        if speed > 0.0 { (self.dead_band_a + self.amperes_per_mps * speed).clamp(0.0, self.full_scale_a) } else { 0.0 }
+        if speed > 0.0 { limited(self.dead_band_a + self.amperes_per_mps * speed, 0.0, self.full_scale_a) } else { 0.0 }
     }
 }
 

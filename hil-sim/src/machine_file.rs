@@ -2,6 +2,7 @@
 //!
 //! The format is described in `docs/machine-files.md`.
 
+mod dynamics;
 mod error;
 mod find;
 mod frankel;
@@ -14,6 +15,7 @@ use std::fs;
 
 use kinematics_core::PinGeometry;
 
+pub use dynamics::{Dynamics, Link};
 use error::Layout;
 pub use error::MachineFileError;
 use parse::{Parsed, parse};
@@ -29,6 +31,8 @@ pub struct MachineFile {
     pub geometry: PinGeometry,
     /// Height of the boom pin above the ground, m.
     pub boom_pin_height_m: f64,
+    /// Masses and inertias, where the file has them.
+    pub dynamics: Option<Dynamics>,
 }
 
 impl MachineFile {
@@ -60,11 +64,12 @@ impl MachineFile {
         let geometry = geometry
             .and_then(|geometry| geometry.validate().map(|()| geometry))
             .map_err(|error| invalid(None, layout.explain(&error)))?;
-        let (name, description) = match parsed {
-            Parsed::Pins(f) => (f.name, f.description),
-            Parsed::Frankel(f) => (f.name, f.description),
-            Parsed::Koivo(f) => (f.name, f.description),
+        let (name, description, dynamics) = match parsed {
+            Parsed::Pins(f) => (f.name, f.description, f.dynamics),
+            Parsed::Frankel(f) => (f.name, f.description, f.dynamics),
+            Parsed::Koivo(f) => (f.name, f.description, f.dynamics),
         };
-        Ok(Self { name, description, geometry, boom_pin_height_m })
+        let dynamics = dynamics.map(|table| table.dynamics());
+        Ok(Self { name, description, geometry, boom_pin_height_m, dynamics })
     }
 }

@@ -28,14 +28,14 @@ impl std::fmt::Display for Violation {
     }
 }
 
-fn outside(stroke: Stroke, length: f64) -> f64 {
+fn outside(stroke: Stroke, length: f64) -> Option<f64> {
     let tolerance = kinematics_core::STROKE_TOLERANCE_M;
     if length > stroke.max_m + tolerance {
-        length - stroke.max_m
+        Some(length - stroke.max_m)
     } else if length < stroke.min_m - tolerance {
-        length - stroke.min_m
+        Some(length - stroke.min_m)
     } else {
-        0.0
+        None
     }
 }
 
@@ -47,21 +47,21 @@ struct Runs {
 }
 
 impl Runs {
-    fn note(&mut self, cylinder: &'static str, time_s: f64, by_m: f64) {
+    fn note(&mut self, cylinder: &'static str, time_s: f64, by_m: Option<f64>) {
         let at = self.open.iter().position(|v| v.cylinder == cylinder);
-        match (at, by_m != 0.0) {
-            (None, true) => {
+        match (at, by_m) {
+            (None, Some(by_m)) => {
                 self.open.push(Violation { cylinder, from_s: time_s, until_s: time_s, worst_s: time_s, by_m });
             }
-            (Some(i), true) => {
+            (Some(i), Some(by_m)) => {
                 let run = &mut self.open[i];
                 run.until_s = time_s;
                 if by_m.abs() > run.by_m.abs() {
                     (run.worst_s, run.by_m) = (time_s, by_m);
                 }
             }
-            (Some(i), false) => self.done.push(self.open.remove(i)),
-            (None, false) => {}
+            (Some(i), None) => self.done.push(self.open.remove(i)),
+            (None, None) => {}
         }
     }
 
@@ -78,15 +78,15 @@ pub fn violations(geometry: &PinGeometry, machine: &Machine<f64>, dig: &Dig<f64>
     let mut runs = Runs::default();
     for tick in 0..=ticks {
         let time_s = f64::from(tick) / f64::from(TICKS_PER_S);
-        let (mut boom, mut arm, mut bucket, mut linkage, mut reach) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut boom, mut arm, mut bucket, mut linkage, mut reach) = (None, None, None, None, None);
         match machine.tip_to_joints(&dig.tip(time_s)).and_then(|j| machine.joints_to_cylinders_any_stroke(&j)) {
             Ok(lengths) => {
                 boom = outside(geometry.boom.stroke, lengths.boom);
                 arm = outside(geometry.arm.stroke, lengths.arm);
                 bucket = outside(geometry.bucket.stroke, lengths.bucket);
             }
-            Err(PoseError::Unreachable { by }) => reach = by,
-            Err(PoseError::NoAssembly { by, .. } | PoseError::OutOfStroke { by, .. }) => linkage = by,
+            Err(PoseError::Unreachable { by }) => reach = Some(by),
+            Err(PoseError::NoAssembly { by, .. } | PoseError::OutOfStroke { by, .. }) => linkage = Some(by),
         }
         let found = [("boom", boom), ("arm", arm), ("bucket", bucket), ("bucket_linkage", linkage), ("reach", reach)];
         for (cylinder, by) in found {

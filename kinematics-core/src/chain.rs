@@ -132,7 +132,7 @@ impl<T: Real> Chain<T> {
         if !(discriminant >= T::ZERO && square >= T::from_f64(NEAREST_WRIST_M * NEAREST_WRIST_M)) {
             return Err(self.unreachable(square));
         }
-        let root = discriminant.sqrt();
+        let root = discriminant.sqrt_of_magnitude();
         // The boom line from the line to the wrist: a2·rotor = (square + a2² − a3² + i·√)·D / 2|D|².
         let turn = Vec2::new(square + self.balance, root);
         let boom = turn.complex_mul(wrist).scale(self.half_over_a2 / square);
@@ -150,12 +150,16 @@ impl<T: Real> Chain<T> {
     #[cold]
     fn unreachable(&self, square: T) -> PoseError<T> {
         let distance = square.sqrt();
-        let outer = self.a2 + self.a3;
-        let by = if distance > outer {
-            distance - outer
+        // a2² + a3² lies half-way between both limits' squares. Next to a limit the distance may round on to it or past it:
+        // then the excess is below what T resolves, and only its sign is told.
+        let least = distance * T::from_f64(f64::EPSILON);
+        let by = if square > self.sum_of_squares {
+            let over = distance - (self.a2 + self.a3);
+            if over > least { over } else { least }
         } else {
             let (inner, nearest) = (self.inner_square.sqrt(), T::from_f64(NEAREST_WRIST_M));
-            distance - if inner > nearest { inner } else { nearest }
+            let under = distance - if inner > nearest { inner } else { nearest };
+            if under > -least { -least } else { under }
         };
         PoseError::Unreachable { by }
     }
@@ -197,6 +201,32 @@ mod tests {
         let chain = Chain::<f64>::new([0.0, 2.0, 2.0, 1.0]);
         let folded = chain.joints(&tip(1.0, 2e-6)).map(|joints| joints.arm);
         assert!(folded.is_ok_and(|arm| (arm.cos + 1.0).abs() < 1e-11 && (arm.sin + 1e-6).abs() < 1e-11), "{folded:?}");
+    }
+
+    fn just_beyond<T: Real + core::fmt::Display>(a2: f64, a3: f64, limit: f64, step: f64) -> u32 {
+        let chain = Chain::<T>::new([0.0, a2, a3, 0.5]);
+        let mut refused = 0;
+        for i in 0..1000 {
+            let direction = Rotor::<f64>::from_turns(f64::from(i) * 0.001).to_vec();
+            let wrist = direction.scale(limit * (1.0 + step * f64::from(i)));
+            let wrist = Vec2::new(T::from_f64(wrist.x), T::from_f64(wrist.z));
+            if let Err(PoseError::Unreachable { by }) = chain.joints_from_wrist(wrist, Rotor::IDENTITY) {
+                let outwards = if limit > a2 { by } else { -by };
+                assert!(outwards > T::ZERO && outwards < T::from_f64(1e-4), "{by} at {limit}");
+                refused += 1;
+            }
+        }
+        refused
+    }
+
+    #[test]
+    fn half_a_rounding_beyond_a_limit_is_not_told_as_metres_beyond_the_other() {
+        for (a2, a3) in [(4.411813674894979, 3.2520846788748363), (4.780331544359228, 1.226654695424576)] {
+            assert!(just_beyond::<f32>(a2, a3, a2 + a3, 2e-10) > 0);
+            assert!(just_beyond::<f64>(a2, a3, a2 + a3, 4e-19) > 0);
+            assert!(just_beyond::<f32>(a2, a3, a2 - a3, -2e-10) > 0);
+            assert!(just_beyond::<f64>(a2, a3, a2 - a3, -4e-19) > 0);
+        }
     }
 
     #[test]

@@ -72,7 +72,7 @@ impl<T: Real> FourBar<T> {
         let j = self.pivot_from_pin + self.rocker.vector(length).map_err(Gap)?;
         let (square, balance, discriminant) = self.pin_circle(j);
         if discriminant >= T::ZERO {
-            Ok(self.assemble(j, square, balance, discriminant))
+            Ok(self.assemble(j, square, balance, discriminant.sqrt_of_magnitude()))
         } else {
             Err(self.gap(square, self.sides[0]))
         }
@@ -83,7 +83,7 @@ impl<T: Real> FourBar<T> {
     pub fn rotor_unchecked(&self, length: T) -> Rotor<T> {
         let j = self.pivot_from_pin + self.rocker.vector_unchecked(length);
         let (square, balance, discriminant) = self.pin_circle(j);
-        self.assemble(j, square, balance, discriminant)
+        self.assemble(j, square, balance, discriminant.sqrt())
     }
 
     /// Rotor of θ4 → cylinder length (m): K from θ4, J from the circles (I, r) and (K, c) on the + side,
@@ -136,8 +136,8 @@ impl<T: Real> FourBar<T> {
 
     /// K − P = (balance − i·√discriminant)·(J − P) / 2|J − P|² on the − side; θ4's rotor from K − P = H·rotor.
     #[inline(always)]
-    fn assemble(&self, j: Vec2<T>, square: T, balance: T, discriminant: T) -> Rotor<T> {
-        let turn = Vec2::new(balance, -discriminant.sqrt());
+    fn assemble(&self, j: Vec2<T>, square: T, balance: T, root: T) -> Rotor<T> {
+        let turn = Vec2::new(balance, -root);
         let v = turn.complex_mul(j).complex_mul(self.unwind);
         let reciprocal = T::ONE / square;
         Rotor { cos: v.x * reciprocal, sin: v.z * reciprocal }
@@ -159,12 +159,11 @@ impl<T: Real> FourBar<T> {
     fn gap(&self, square: T, side: T) -> Gap<T> {
         let distance = square.sqrt();
         let coupler = self.sides[1];
-        let over = distance - (side + coupler);
-        if over > T::ZERO {
-            return Gap(over);
-        }
         let difference = if side > coupler { side - coupler } else { coupler - side };
-        Gap(difference - distance)
+        // Half-way between both limits' squares; next to a limit rounding may leave nothing of the gap.
+        let by =
+            if square > side * side + coupler * coupler { distance - (side + coupler) } else { difference - distance };
+        Gap(if by < T::ZERO { T::ZERO } else { by })
     }
 }
 

@@ -141,6 +141,8 @@ impl PinGeometry {
 pub enum Problem {
     /// Not a number or infinite.
     NotFinite,
+    /// More than a kilometre, m: no machine, and beyond what single precision can square.
+    TooLarge(f64),
     /// A length that is not above zero, m.
     NotPositive(f64),
     /// The minimum of a stroke is not below its maximum.
@@ -187,6 +189,7 @@ impl fmt::Display for GeometryError {
         let field = self.field;
         match self.problem {
             Problem::NotFinite => write!(f, "`{field}` must be a finite number"),
+            Problem::TooLarge(x) => write!(f, "`{field}` must be within −1000…1000 m, not {x}"),
             Problem::NotPositive(x) => write!(f, "`{field}` is a length and must be above 0, not {x}"),
             Problem::MinNotBelowMax { min_m, max_m } => {
                 write!(f, "`{field}`: the stroke's minimum {min_m} m must be below its maximum {max_m} m")

@@ -56,8 +56,6 @@ pub struct Machine<T> {
     swing: Option<SwingCylinder<T>>,
 }
 
-const ORDER: [Cylinder; 3] = [Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket];
-
 fn open<T>(cylinder: Cylinder) -> impl Fn(T) -> PoseError<T> {
     move |by| PoseError::NoAssembly { cylinder, by }
 }
@@ -101,11 +99,26 @@ impl<T: Real> Machine<T> {
     /// [`PoseError::OutOfStroke`] for the first that does not, in the order boom, arm, bucket.
     #[inline(always)]
     pub fn check_strokes(&self, cylinders: &Cylinders<T>) -> Result<(), PoseError<T>> {
-        let lengths = [cylinders.boom, cylinders.arm, cylinders.bucket];
-        for ((check, cylinder), length) in self.strokes.iter().zip(ORDER).zip(lengths) {
-            check.check(cylinder, length)?;
+        let [boom, arm, bucket] = &self.strokes;
+        if boom.contains(cylinders.boom) && arm.contains(cylinders.arm) && bucket.contains(cylinders.bucket) {
+            Ok(())
+        } else {
+            Err(self.first_out_of_stroke(cylinders))
         }
-        Ok(())
+    }
+
+    /// Which it was: looked up only when one is, so that the checks cost nothing but their comparisons.
+    #[cold]
+    #[inline(never)]
+    fn first_out_of_stroke(&self, cylinders: &Cylinders<T>) -> PoseError<T> {
+        let [boom, arm, bucket] = &self.strokes;
+        if !boom.contains(cylinders.boom) {
+            boom.excess(Cylinder::Boom, cylinders.boom)
+        } else if !arm.contains(cylinders.arm) {
+            arm.excess(Cylinder::Arm, cylinders.arm)
+        } else {
+            bucket.excess(Cylinder::Bucket, cylinders.bucket)
+        }
     }
 
     /// Cylinders → joints where the linkages close, inside the stroke or not: Koivo 1994 (11), (13), (15)–(18),

@@ -78,14 +78,14 @@ impl<T: Real> Triangle<T> {
     pub fn vector(&self, length: T) -> Result<Vec2<T>, T> {
         let (u, v) = self.products(length);
         let product = u * v;
-        if product >= T::ZERO { Ok(self.assemble(u, v, product)) } else { Err(self.gap(length)) }
+        if product >= T::ZERO { Ok(self.assemble(u, v, product.sqrt_of_magnitude())) } else { Err(self.gap(length)) }
     }
 
     /// [`Triangle::vector`] without the check: not a number where the triangle does not close.
     #[inline(always)]
     pub fn vector_unchecked(&self, length: T) -> Vec2<T> {
         let (u, v) = self.products(length);
-        self.assemble(u, v, u * v)
+        self.assemble(u, v, (u * v).sqrt())
     }
 
     /// [`Triangle::vector`] as a rotor, for a scale of one.
@@ -128,8 +128,8 @@ impl<T: Real> Triangle<T> {
     }
 
     #[inline(always)]
-    fn assemble(&self, u: T, v: T, product: T) -> Vec2<T> {
-        self.straight.scale(u - v) + self.across.scale(product.sqrt())
+    fn assemble(&self, u: T, v: T, root: T) -> Vec2<T> {
+        self.straight.scale(u - v) + self.across.scale(root)
     }
 
     #[cold]

@@ -83,13 +83,13 @@ impl Oracle {
         Point { x: self.links[2], z: Wide::from_f64(0.0) }
     }
 
-    /// Boom cylinder length [m] → unit vector at θ2.
+    /// Boom cylinder length (m) → unit vector at θ2.
     pub fn boom(&self, length: f64) -> Point {
         let rod_eye = intersection(ORIGIN, self.b.norm(), self.a, Wide::from_f64(length), !self.above);
         rod_eye.turned_back(self.b).unit()
     }
 
-    /// Arm cylinder length [m] → unit vector at θ3.
+    /// Arm cylinder length (m) → unit vector at θ3.
     pub fn arm(&self, length: f64) -> Point {
         let rod_eye = intersection(self.arm_pin(), self.d.norm(), self.c, Wide::from_f64(length), false);
         (rod_eye - self.arm_pin()).turned_back(self.d).unit()
@@ -100,7 +100,7 @@ impl Oracle {
         intersection(self.i, self.rocker, self.e, Wide::from_f64(length), false)
     }
 
-    /// Bucket cylinder length [m] → unit vector at θ4.
+    /// Bucket cylinder length (m) → unit vector at θ4.
     pub fn bucket(&self, length: f64) -> Point {
         let coupler_pin = intersection(self.bucket_pin(), self.h.norm(), self.common_pin(length), self.coupler, false);
         (coupler_pin - self.bucket_pin()).turned_back(self.h).unit()
@@ -117,13 +117,13 @@ impl Oracle {
         Placed { joints, tip, pitch }
     }
 
-    /// Cylinder lengths [m] → joints and tip.
+    /// Cylinder lengths (m) → joints and tip.
     pub fn forward(&self, lengths: [f64; 3]) -> Placed {
         let [boom, arm, bucket] = lengths;
         self.place([self.boom(boom), self.arm(arm), self.bucket(bucket)])
     }
 
-    /// Tip and pitch direction (of any length) → cylinder lengths [m], all pins placed in the base frame at the boom pin.
+    /// Tip and pitch direction (of any length) → cylinder lengths (m), all pins placed in the base frame at the boom pin.
     pub fn inverse(&self, tip: Point, pitch: Point) -> [Wide; 3] {
         let pitch = pitch.unit();
         let [a1, a2, a3, a4] = self.links;

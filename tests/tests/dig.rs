@@ -118,3 +118,13 @@ fn the_digs_of_the_other_scenarios_stay_inside_the_travel_limits() {
         assert_eq!(first_violation(&machine, &Dig::new(&scenario.dig)), None, "{name}");
     }
 }
+
+#[test]
+fn what_is_checked_before_motion_is_to_the_bit_what_motion_follows() {
+    let dig = Dig::<f32>::new(&scenario("dig").dig);
+    for tick in 0..=20_000 {
+        assert_eq!(Dig::<f32>::time_of(tick).to_bits(), (tick as f32 * firmware::TICK_S).to_bits());
+        assert_eq!(dig.at_tick(tick), dig.tip(tick as f32 * firmware::TICK_S));
+    }
+    assert_eq!(dig.ticks(), 20_000);
+}

@@ -1,4 +1,5 @@
-//! What the linked ARM images are made of: no fused multiply-add, which would round once where the host rounds twice.
+//! What the linked ARM images are made of: no fused multiply-add, which would round once where the host rounds twice, and no
+//! panic in the control loop.
 
 use hil_sim::place::Image;
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
@@ -17,8 +18,8 @@ fn is_float_multiply((first, second): Instruction) -> bool {
     first & 0xffb0 == 0xee20 && second & 0x0e50 == 0x0a00
 }
 
-/// Every Thumb instruction of the ELF's code, data between it left out by the mapping symbols `$t` and `$d`.
-fn instructions(elf: &[u8]) -> Vec<Instruction> {
+/// Every Thumb instruction of the ELF's code with its address, data between it left out by the mapping symbols `$t` and `$d`.
+fn instructions(elf: &[u8]) -> Vec<(u64, Instruction)> {
     let file = object::File::parse(elf).expect("an ELF");
     let mut marks: Vec<(u64, bool)> = file
         .symbols()
@@ -45,7 +46,7 @@ fn instructions(elf: &[u8]) -> Vec<Instruction> {
             }
             // Halfwords from 0b11101 upwards begin an instruction of two.
             let long = first >> 11 >= 0b11101;
-            found.push((first, if long { halfword(at + 2).unwrap_or(0) } else { 0 }));
+            found.push((address, (first, if long { halfword(at + 2).unwrap_or(0) } else { 0 })));
             at += if long { 4 } else { 2 };
         }
     }
@@ -72,10 +73,62 @@ fn no_image_has_a_fused_multiply_add() {
         let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
         let elf = std::fs::read(&image.path).expect("the image");
         let all = instructions(&elf);
-        let multiplies = all.iter().filter(|&&i| is_float_multiply(i)).count();
-        let fused = all.iter().filter(|&&i| is_fused_multiply_add(i)).count();
+        let multiplies = all.iter().filter(|&&(_, i)| is_float_multiply(i)).count();
+        let fused = all.iter().filter(|&&(_, i)| is_fused_multiply_add(i)).count();
         println!("{name}: {} instructions, {multiplies} float multiplies, {fused} fused", all.len());
         assert!(multiplies > 50, "{name}: the scan misses the floating-point code");
         assert_eq!(fused, 0, "{name}");
+    }
+}
+
+/// The calls (BL) and long jumps (B.W) of the code, from where and to where.
+fn calls(elf: &[u8]) -> Vec<(u64, u64)> {
+    let jump = |&(at, (first, second)): &(u64, Instruction)| {
+        let is_jump = first & 0xf800 == 0xf000 && matches!(second & 0xd000, 0x9000 | 0xd000);
+        let bit = |half: u16, n: u32| u32::from(half >> n & 1);
+        let (sign, j1, j2) = (bit(first, 10), bit(second, 13), bit(second, 11));
+        let offset = sign << 24
+            | (1 ^ j1 ^ sign) << 23
+            | (1 ^ j2 ^ sign) << 22
+            | u32::from(first & 0x3ff) << 12
+            | u32::from(second & 0x7ff) << 1;
+        let offset = i64::from((offset << 7).cast_signed() >> 7);
+        is_jump.then(|| (at, (at + 4).wrapping_add_signed(offset)))
+    };
+    instructions(elf).iter().filter_map(jump).collect()
+}
+
+/// The functions of the ELF, by address, under their mangled names.
+fn functions(elf: &[u8]) -> Vec<(u64, String)> {
+    let file = object::File::parse(elf).expect("an ELF");
+    let named = |symbol: object::Symbol<'_, '_>| Some((symbol.address() & !1, symbol.name().ok()?.to_owned()));
+    let is_mark = |name: &str| name.starts_with('$');
+    let mut all: Vec<_> = file
+        .symbols()
+        .filter(|symbol| symbol.kind() == object::SymbolKind::Text)
+        .filter_map(named)
+        .filter(|(_, name)| !is_mark(name))
+        .collect();
+    all.sort_unstable();
+    all
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn nothing_but_the_writing_of_messages_can_panic_in_the_control_image() {
+    let image = Image::build("ecu-emulated").unwrap_or_else(|error| panic!("{error}"));
+    let elf = std::fs::read(&image.path).expect("the image");
+    let functions = functions(&elf);
+    let holding = |at: u64| {
+        let after = functions.partition_point(|&(start, _)| start <= at);
+        functions[..after].last().map_or("", |(_, name)| name.as_str())
+    };
+    let panics = |name: &str| name.contains("9panicking") || name.contains("16slice_index_fail");
+    // Core's own number formatting, which writes the refusal of a parameter record before the loop begins.
+    let is_core = |name: &str| name.contains("4core3fmt") || name.contains("4core3num") || panics(name);
+    let into_panics: Vec<_> = calls(&elf).into_iter().filter(|&(_, to)| panics(holding(to))).collect();
+    assert!(into_panics.len() > 10, "the scan misses core's own panics: {into_panics:?}");
+    for (from, to) in into_panics {
+        assert!(is_core(holding(from)), "{} calls {}", holding(from), holding(to));
     }
 }

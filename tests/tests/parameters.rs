@@ -5,10 +5,16 @@ use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
 
-const SPOILT: [(&str, Spoil); 30] = [
+const SPOILT: [(&str, Spoil); 36] = [
     ("links.boom_m", |p| p.geometry.boom_m = -1.0),
     ("boom.base_x_m", |p| p.geometry.boom.base.x = f64::NAN),
     ("sensor.min_code", |p| p.cylinder_sensors[0].min_code = 60_000),
+    ("sensor.min_code", |p| (p.cylinder_sensors[0].min_code, p.cylinder_sensors[0].tolerance_codes) = (0, 0)),
+    ("sensor.max_code", |p| (p.cylinder_sensors[0].max_code, p.cylinder_sensors[0].tolerance_codes) = (u16::MAX, 0)),
+    ("sensor.stroke.min_m", |p| p.cylinder_sensors[0].stroke.min_m = 3.0),
+    ("sensor.stroke.min_m", |p| p.cylinder_sensors[1].stroke.min_m = f64::NAN),
+    ("sensor.stroke.max_m", |p| p.cylinder_sensors[1].stroke.max_m = f64::NAN),
+    ("sensor.stroke.max_m", |p| p.cylinder_sensors[2].stroke.max_m = -1.0),
     ("sensor.tolerance_codes", |p| p.cylinder_sensors[1].tolerance_codes = 60_000),
     ("sensor.max_code", |p| p.cylinder_sensors[2].max_code = 0),
     ("valve.dead_band", |p| p.valves[0][0].dead_band = 0.95),

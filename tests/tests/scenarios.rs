@@ -176,3 +176,14 @@ fn an_unknown_machine_event_or_table_is_refused_by_name() {
         assert!(message.contains(named), "{message}");
     }
 }
+
+#[test]
+fn a_dig_that_ends_between_two_ticks_is_completed_too() {
+    let mut scenario = scenario("dig");
+    scenario.parameters.dig.until_s[2] = 20.0004;
+    scenario.dig = scenario.parameters.dig;
+    let mut host = Host::new(&scenario.parameters).unwrap();
+    let log = Run::new(&scenario, 1).unwrap().complete(&mut host, |_, _| {}).unwrap();
+    let summary = Summary::of(&scenario, "host", 1, &log, None);
+    assert!(summary.dig_completed, "{summary:?}");
+}

@@ -232,3 +232,14 @@ fn every_distance_of_frankels_that_is_no_length_is_named() {
     assert_eq!(error.problem, Problem::NoTriangle);
     assert!(error.field.starts_with("distances."), "{error}");
 }
+
+#[test]
+fn a_number_beyond_a_kilometre_is_refused_by_its_field_before_it_becomes_an_infinity_in_f32() {
+    for (field, of) in COORDINATES.into_iter().chain(LENGTHS) {
+        for huge in [1e4, 1e39, 1e300] {
+            let mut g = PinGeometry::EXACT_MINI;
+            *of(&mut g) = huge;
+            assert_eq!(refused(&g), GeometryError { field, problem: Problem::TooLarge(huge) });
+        }
+    }
+}

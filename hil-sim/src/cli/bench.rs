@@ -1,17 +1,17 @@
-//! `hil bench`: instruction counts on the emulated Cortex-M4F.
+//! `hil bench`: instruction counts on the emulated Cortex-M4F and on the host, against the papers' formulas and peer libraries.
+
+mod emulated;
+mod host;
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+
 use serde::Serialize;
 
-use super::progress::Progress;
-use crate::place::{Emulator, Image, Timing};
-use crate::run::Run;
-use crate::scenario::Scenario;
+use super::print;
 
 /// Arguments of `hil bench`.
 #[derive(Debug, Args)]
@@ -19,6 +19,9 @@ pub struct BenchArgs {
     /// Write the counts as JSON to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
+    /// Build the peer libraries too and compare with them (slow the first time)
+    #[arg(long)]
+    peers: bool,
 }
 
 /// One row of the table.
@@ -29,11 +32,15 @@ struct Row {
     max: u32,
 }
 
-/// The JSON: the largest count of each row.
+/// The JSON: the largest count of each row, and what callgrind counts on the host.
 #[derive(Debug, Serialize)]
 struct Counts {
     emulator: BTreeMap<String, u32>,
     emulator_median: BTreeMap<String, u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    host: Option<BTreeMap<String, u64>>,
+    /// How many times as many instructions as ours the others take.
+    ratios: BTreeMap<String, f64>,
 }
 
 /// Runs the command; its exit status is 0, or 2 when it cannot measure.
@@ -50,22 +57,25 @@ pub fn main(args: &BenchArgs) -> ExitCode {
 type AnyError = Box<dyn std::error::Error>;
 
 fn bench(args: &BenchArgs) -> Result<(), AnyError> {
-    let mut rows = maps()?;
-    rows.push(tick()?);
-    let mut table = String::from("instructions on the emulated Cortex-M4F     median      max\n");
-    for Row { name, median, max } in &rows {
-        table += &format!("{name:<40} {median:>9} {max:>8}\n");
+    let mut rows = emulated::maps()?;
+    rows.push(emulated::tick()?);
+    let host = host::maps(args.peers)?;
+    if host.is_none() {
+        eprintln!("valgrind is not installed: no counts on the host (apt-get install valgrind)");
     }
     let by_name = |count: fn(&Row) -> u32| rows.iter().map(|row| (row.name.clone(), count(row))).collect();
-    let counts = Counts { emulator: by_name(|row| row.max), emulator_median: by_name(|row| row.median) };
+    let emulator: BTreeMap<String, u32> = by_name(|row| row.max);
+    let ratios = ratios(&emulator, host.as_ref());
+    let table = table(&rows, host.as_ref(), &ratios);
+    let counts = Counts { emulator, emulator_median: by_name(|row| row.median), host, ratios };
     let json = serde_json::to_string_pretty(&counts)? + "\n";
     match args.json.as_deref() {
         Some(file) if file == Path::new("-") => {
             eprint!("{table}");
-            std::io::stdout().write_all(json.as_bytes())?;
+            print(&json)?;
         }
         Some(file) => {
-            print!("{table}");
+            print(&table)?;
             std::fs::write(file, json).map_err(|e| format!("cannot write {}: {e}", file.display()))?;
         }
         None => print!("{table}"),
@@ -73,43 +83,38 @@ fn bench(args: &BenchArgs) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// The maps, each alone, from the bench image.
-fn maps() -> Result<Vec<Row>, AnyError> {
-    let printed = Emulator::start(&Image::build("bench-emulated")?)?.printed()?;
-    printed
-        .lines()
-        .map(|line| {
-            let mut words = line.split_whitespace();
-            let row = (words.next(), words.next().map(str::parse), words.next().map(str::parse));
-            match row {
-                (Some(name), Some(Ok(median)), Some(Ok(max))) => Ok(Row { name: name.to_owned(), median, max }),
-                _ => Err(format!("the bench image printed `{line}`, which is no row").into()),
-            }
-        })
-        .collect()
+/// The maps that others are compared with, and who the others are; a name is `OTHER_MAP`.
+const COMPARED: [&str; 2] = ["cylinders_to_tip", "tip_to_cylinders"];
+const OTHERS: [&str; 3] = ["angles", "k", "opw"];
+
+/// `host.k_cylinders_to_tip` and so on: others' instructions over ours, in the same place and number type.
+fn ratios(emulator: &BTreeMap<String, u32>, host: Option<&BTreeMap<String, u64>>) -> BTreeMap<String, f64> {
+    let on_emulator = emulator.iter().map(|(name, &count)| (format!("emulator.{name}"), u64::from(count)));
+    let on_host = host.into_iter().flatten().map(|(name, &count)| (format!("host.{name}"), count));
+    let all: BTreeMap<String, u64> = on_emulator.chain(on_host).collect();
+    let ours_of = |name: &str| {
+        let (place, map) = name.split_once('.')?;
+        let (other, ours) = map.split_once('_')?;
+        let compared = OTHERS.contains(&other) && COMPARED.iter().any(|map| ours.starts_with(map));
+        all.get(&format!("{place}.{ours}")).filter(|_| compared)
+    };
+    let ratio = |(name, &count): (&String, &u64)| Some((name.clone(), count as f64 / *ours_of(name)? as f64));
+    all.iter().filter_map(ratio).collect()
 }
 
-/// The whole tick, over every tick of the dig scenario.
-fn tick() -> Result<Row, AnyError> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/dig.toml");
-    let scenario = Scenario::load(&file)?;
-    let image = Image::build("ecu-emulated")?;
-    let mut progress = Progress::new("tick", (scenario.duration_s * 1e3) as u64, 1e3, "s");
-    let mut emulator = Emulator::with_parameters(&image, &scenario.parameters)?;
-    let log = Run::new(&scenario, 1)?.complete(&mut emulator, |done, all| progress.at(done, all))?;
-    progress.finish();
-    emulator.finish()?;
-    let mut counts: Vec<u32> = log
-        .timing
-        .iter()
-        .filter_map(|timing| match *timing {
-            Timing::Emulator { instructions, .. } => Some(instructions),
-            Timing::Host { .. } => None,
-        })
-        .collect();
-    counts.sort_unstable();
-    let (Some(&max), Some(&median)) = (counts.last(), counts.get(counts.len() / 2)) else {
-        return Err("the dig scenario has no ticks".into());
-    };
-    Ok(Row { name: "tick".to_owned(), median, max })
+fn table(rows: &[Row], host: Option<&BTreeMap<String, u64>>, ratios: &BTreeMap<String, f64>) -> String {
+    let against = |name: String| ratios.get(&name).map(|r| format!("{r:>9.1} × ours")).unwrap_or_default();
+    let mut table = String::from("instructions on the emulated Cortex-M4F     median      max\n");
+    for Row { name, median, max } in rows {
+        table += &format!("{name:<40} {median:>9} {max:>8} {}\n", against(format!("emulator.{name}")));
+    }
+    if let Some(host) = host {
+        table += "\ninstructions on the host, by callgrind         a call\n";
+        for (name, count) in host {
+            table += &format!("{name:<40} {count:>12}      {}\n", against(format!("host.{name}")));
+        }
+        table +=
+            "angles: the papers' formulas with libm; k, opw: peer libraries, with those formulas for the cylinders\n";
+    }
+    table
 }

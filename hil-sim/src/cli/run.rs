@@ -1,16 +1,16 @@
 //! `hil run SCENARIO`: simulate, report, and say how it ended.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
+use super::print;
 use super::progress::Progress;
-use crate::place::{Emulator, Host, Image};
+use crate::place::{Emulator, Host, Image, PlaceError};
 use crate::report;
 use crate::run::{EmulatorFigures, Log, Outcome, Run, RunError, Summary};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, ScenarioError};
 use crate::travel::Violation;
 
 /// Where the application runs.
@@ -44,25 +44,56 @@ pub struct RunArgs {
     draw_only: bool,
 }
 
-/// Runs the command; its exit status is 0 done, 2 bad input or refused, 3 fault or limit violation.
+/// Runs the command; its exit status is 0 done, 1 it could not run or write, 2 bad input or refused, 3 fault or limit violation.
 pub fn main(args: &RunArgs) -> ExitCode {
     match scenario(args) {
         Ok(outcome) => ExitCode::from(outcome.exit_status()),
-        Err(error) => {
+        Err(Failure { status, error }) => {
             eprintln!("error: {error}");
-            ExitCode::from(2)
+            ExitCode::from(status)
         }
     }
 }
 
-type AnyError = Box<dyn std::error::Error>;
+/// Why there is no outcome.
+struct Failure {
+    status: u8,
+    error: Box<dyn std::error::Error>,
+}
 
-fn scenario(args: &RunArgs) -> Result<Outcome, AnyError> {
+impl From<ScenarioError> for Failure {
+    fn from(error: ScenarioError) -> Self {
+        Self { status: 2, error: error.into() }
+    }
+}
+
+impl From<PlaceError> for Failure {
+    fn from(error: PlaceError) -> Self {
+        let status = if matches!(error, PlaceError::Parameters(_)) { 2 } else { 1 };
+        Self { status, error: error.into() }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Place(error) => error.into(),
+            error => Self { status: 2, error: error.into() },
+        }
+    }
+}
+
+/// A file or folder that cannot be written, by its path.
+fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Failure {
+    move |error| Failure { status: 1, error: format!("cannot write {}: {error}", path.display()).into() }
+}
+
+fn scenario(args: &RunArgs) -> Result<Outcome, Failure> {
     let scenario = Scenario::load(&args.scenario)?;
     let on = if args.on == On::Host { "host" } else { "emulator" };
     let folder = args.report.clone().unwrap_or_else(|| Path::new("report").join(&scenario.name));
     if args.draw_only {
-        let found = report::draw_only(&scenario, &folder)?;
+        let found = report::draw_only(&scenario, &folder).map_err(unwritable(&folder))?;
         let summary = Summary::without_run(&scenario, on, args.seed, found);
         finish(args, &summary, &folder)?;
         return Ok(Outcome::Done);
@@ -71,14 +102,16 @@ fn scenario(args: &RunArgs) -> Result<Outcome, AnyError> {
         Err(RunError::Refused(found)) => return refuse(args, &scenario, on, found),
         other => other?,
     };
+    // Before the run, so that an unusable folder does not cost one.
+    std::fs::create_dir_all(&folder).map_err(unwritable(&folder))?;
     let (log, emulator) = complete(args.on, run, &scenario)?;
     let summary = Summary::of(&scenario, on, args.seed, &log, emulator);
-    report::write(&scenario, &log, &summary, &folder)?;
+    report::write(&scenario, &log, &summary, &folder).map_err(unwritable(&folder))?;
     finish(args, &summary, &folder)?;
     Ok(summary.outcome())
 }
 
-fn refuse(args: &RunArgs, scenario: &Scenario, on: &'static str, found: Vec<Violation>) -> Result<Outcome, AnyError> {
+fn refuse(args: &RunArgs, scenario: &Scenario, on: &'static str, found: Vec<Violation>) -> Result<Outcome, Failure> {
     eprintln!("{}: refused before motion, the dig leaves the travel limits:", scenario.name);
     for violation in &found {
         eprintln!("  {violation}");
@@ -89,7 +122,7 @@ fn refuse(args: &RunArgs, scenario: &Scenario, on: &'static str, found: Vec<Viol
     Ok(summary.outcome())
 }
 
-fn complete(on: On, run: Run<'_>, scenario: &Scenario) -> Result<(Log, Option<EmulatorFigures>), AnyError> {
+fn complete(on: On, run: Run<'_>, scenario: &Scenario) -> Result<(Log, Option<EmulatorFigures>), PlaceError> {
     let mut progress = Progress::new(&scenario.name, (scenario.duration_s * 1e3) as u64, 1e3, "s");
     let report = |done, all| progress.at(done, all);
     let result = match on {
@@ -107,24 +140,22 @@ fn complete(on: On, run: Run<'_>, scenario: &Scenario) -> Result<(Log, Option<Em
 }
 
 /// The table and the JSON.
-fn finish(args: &RunArgs, summary: &Summary, folder: &Path) -> Result<(), AnyError> {
+fn finish(args: &RunArgs, summary: &Summary, folder: &Path) -> Result<(), Failure> {
     let table = report::table(summary, folder);
     // With JSON on standard output nothing else may stand there.
     if args.json.as_deref() == Some(Path::new("-")) {
         eprint!("{table}");
     } else {
-        std::io::stdout().write_all(table.as_bytes())?;
+        print(&table).map_err(unwritable(Path::new("standard output")))?;
     }
     write_json(args, summary)
 }
 
-fn write_json(args: &RunArgs, summary: &Summary) -> Result<(), AnyError> {
+fn write_json(args: &RunArgs, summary: &Summary) -> Result<(), Failure> {
     let Some(file) = &args.json else { return Ok(()) };
-    let text = serde_json::to_string_pretty(summary)? + "\n";
-    if file == Path::new("-") {
-        std::io::stdout().write_all(text.as_bytes())?;
-    } else {
-        std::fs::write(file, text).map_err(|e| format!("cannot write {}: {e}", file.display()))?;
-    }
-    Ok(())
+    let written = serde_json::to_string_pretty(summary).map_err(std::io::Error::from).and_then(|text| {
+        let text = text + "\n";
+        if file == Path::new("-") { print(&text) } else { std::fs::write(file, text) }
+    });
+    written.map_err(unwritable(file))
 }

@@ -83,6 +83,9 @@ impl Layout {
             Problem::NotPositive(_) if self == Self::Frankel && error.field == "distances.r3f_m" => {
                 "must be below `distances.r3d_in`: F lies between the pins 3 and D".to_owned()
             }
+            Problem::TooLarge(x) => {
+                format!("must be within {}…{}, not {}", self.length(-1e3), self.length(1e3), self.length(x))
+            }
             Problem::NotPositive(x) => format!("must be a length above 0, not {}", self.length(x)),
             Problem::MinNotBelowMax { min_m, max_m } => format!(
                 "the stroke's minimum, {}, must be below its maximum, {}",

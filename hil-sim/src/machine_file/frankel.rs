@@ -5,6 +5,7 @@ use kinematics_core::geometry::{GeometryError, PinGeometry, Stroke};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::dynamics::DynamicsTable;
 use super::value::{Length, Number};
 
 /// One inch in metres, exactly.
@@ -25,6 +26,7 @@ pub(super) struct FrankelFile {
     boom: Travel,
     arm: Travel,
     bucket: Travel,
+    pub(super) dynamics: Option<DynamicsTable>,
 }
 
 #[derive(Deserialize)]

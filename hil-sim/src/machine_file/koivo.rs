@@ -5,6 +5,7 @@ use kinematics_core::geometry::{GeometryError, PinGeometry, Stroke};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::dynamics::DynamicsTable;
 use super::value::{Length, Number};
 
 #[derive(Deserialize)]
@@ -21,6 +22,7 @@ pub(super) struct KoivoFile {
     boom: Travel,
     arm: Travel,
     bucket: Travel,
+    pub(super) dynamics: Option<DynamicsTable>,
 }
 
 #[derive(Deserialize)]

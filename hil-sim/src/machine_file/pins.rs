@@ -5,6 +5,7 @@ use kinematics_core::geometry::{BoomCylinder, BucketPins, CylinderPins, PinGeome
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::dynamics::DynamicsTable;
 use super::value::{Length, Number};
 
 #[derive(Deserialize)]
@@ -20,6 +21,7 @@ pub(super) struct PinsFile {
     arm: Cylinder,
     bucket: Bucket,
     swing: Option<Swing>,
+    pub(super) dynamics: Option<DynamicsTable>,
 }
 
 #[derive(Deserialize)]

@@ -8,9 +8,13 @@ use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Number(pub(super) f64);
 
-/// A length or a cylinder's end of travel: finite and above 0.
+/// A length, a cylinder's end of travel or a mass: above 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Length(pub(super) f64);
+
+/// Beyond these no machine is built, in metres, inches, degrees, kg or kg m².
+const MOST: f64 = 1e5;
+const LEAST: f64 = 1e-6;
 
 struct FiniteNumber;
 struct PositiveLength;
@@ -19,10 +23,10 @@ impl Visitor<'_> for FiniteNumber {
     type Value = Number;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a finite number")
+        f.write_str("a finite number within −100000…100000")
     }
     fn visit_f64<E: Error>(self, x: f64) -> Result<Number, E> {
-        if x.is_finite() { Ok(Number(x)) } else { Err(E::invalid_value(Unexpected::Float(x), &self)) }
+        if x.abs() <= MOST { Ok(Number(x)) } else { Err(E::invalid_value(Unexpected::Float(x), &self)) }
     }
     fn visit_i64<E: Error>(self, n: i64) -> Result<Number, E> {
         self.visit_f64(n as f64)
@@ -33,13 +37,13 @@ impl Visitor<'_> for PositiveLength {
     type Value = Length;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a finite length above 0")
+        f.write_str("a finite number above 0, within 0.000001…100000")
     }
     fn visit_f64<E: Error>(self, x: f64) -> Result<Length, E> {
-        if x.is_finite() && x > 0.0 { Ok(Length(x)) } else { Err(E::invalid_value(Unexpected::Float(x), &self)) }
+        if (LEAST..=MOST).contains(&x) { Ok(Length(x)) } else { Err(E::invalid_value(Unexpected::Float(x), &self)) }
     }
     fn visit_i64<E: Error>(self, n: i64) -> Result<Length, E> {
-        if n > 0 { Ok(Length(n as f64)) } else { Err(E::invalid_value(Unexpected::Signed(n), &self)) }
+        self.visit_f64(n as f64)
     }
 }
 

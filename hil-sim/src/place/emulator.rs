@@ -127,6 +127,10 @@ impl Emulator {
     }
 
     fn lost(&mut self, why: String) -> PlaceError {
+        let why = match self.child().try_wait() {
+            Ok(Some(status)) => format!("qemu-system-arm ended with {status} ({why})"),
+            _ => why,
+        };
         let why = if self.guard.fired() { format!("it said nothing for {SILENCE:?}") } else { why };
         // A child already gone cannot be ended again; either way its standard error is complete now.
         let _ = self.child().kill();

@@ -107,6 +107,7 @@ impl Log {
     /// The dig was followed to its end.
     pub fn dig_completed(&self, dig_duration_s: f64) -> bool {
         let last = self.rows.iter().map(|row| row.outputs.dig_tick).max().unwrap_or(0);
-        f64::from(last) >= dig_duration_s * f64::from(firmware::TICKS_PER_S)
+        // A dig that ends between two ticks ends at the nearer one.
+        f64::from(last) > dig_duration_s * f64::from(firmware::TICKS_PER_S) - 1.0
     }
 }

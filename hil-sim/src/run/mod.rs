@@ -115,7 +115,8 @@ impl<'a> Run<'a> {
         // The plant stays between its stops, where the linkage closes.
         let pose = self.machine.cylinders_to_tip(&lengths, Rotor::IDENTITY).ok();
         let tip = |pose: Pose<f64>| [pose.plane.reach, pose.plane.height];
-        let reference = (outputs.dig_tick > 0).then(|| {
+        // While the feed-forward waits out the dead time, tick 1 stands still: nothing is followed yet.
+        let reference = (outputs.dig_tick > 1).then(|| {
             let tip = self.dig.tip(f64::from(outputs.dig_tick - 1) / f64::from(TICKS_PER_S));
             [tip.reach, tip.height]
         });

@@ -73,7 +73,8 @@ impl Outcome {
     }
 }
 
-/// The summary. Fields that do not apply are left out.
+/// The summary. `refused`, or `faults` and `stop_hits`, and the emulator's figures are left out where they do not apply; other values
+/// that do not are null.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// The scenario's name.
@@ -87,18 +88,14 @@ pub struct Summary {
     /// Ticks run.
     pub ticks: usize,
     /// CRC-64/XZ over every output of every tick, sixteen hexadecimal digits.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub output_hash: Option<String>,
     /// Whether the dig was followed to its end.
     pub dig_completed: bool,
     /// Root mean square of |reference(t) − true tip(t)| while digging, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_error_rms_m: Option<f64>,
     /// Largest of the same, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_error_max_m: Option<f64>,
     /// Simulated time over wall clock.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub real_time_factor: Option<f64>,
     /// Why the dig was refused before motion.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -2,14 +2,25 @@
 
 use super::file::ScenarioFile;
 
+/// The name becomes the report's folder.
+fn name(name: &str) -> Result<(), String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if !name.is_empty() && name.len() <= 64 && !name.starts_with('.') && name.chars().all(plain) {
+        Ok(())
+    } else {
+        Err(format!("`name` is {name:?} but must be 1 to 64 of A–Z, a–z, 0–9, `-`, `_`, `.`, the first not `.`"))
+    }
+}
+
 pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
+    name(&s.name)?;
     let far = [-50.0, 50.0];
     let length = [0.01, 50.0];
     let turn = [-720.0, 720.0];
     let run = [0.0, s.duration_s];
     let (o, d, m, p) = (&s.operator, &s.dig, &s.motion, &s.plant);
     let checks = [
-        ("duration_s", s.duration_s, [0.01, 36_000.0]),
+        ("duration_s", s.duration_s, [0.01, 600.0]),
         ("operator.enable_s", o.enable_s, run),
         ("operator.dig_s", o.dig_s, run),
         ("dig.samples", f64::from(d.samples), [10.0, 100_000.0]),
@@ -50,6 +61,12 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
         if !(value >= low && value <= high) {
             return Err(format!("`{field}` is {value} but must be within {low}…{high}"));
         }
+    }
+    if o.dig_s <= o.enable_s {
+        return Err(format!(
+            "`operator.dig_s` is {} but must be after `operator.enable_s`, {}: enabling needs levers in neutral",
+            o.dig_s, o.enable_s
+        ));
     }
     let needed_v = p.coil_full_scale_a * p.coil_resistance_ohm;
     if needed_v > p.supply_v {

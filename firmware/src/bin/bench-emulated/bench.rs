@@ -3,6 +3,7 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
+use bench::seed::single::Dimensions;
 use cortex_m_rt::entry;
 use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor};
 use stm32f4::stm32f405::Peripherals;
@@ -30,6 +31,16 @@ fn cylinders_to_tip_unchecked(machine: &Machine<f32>, cylinders: &Cylinders<f32>
 #[inline(never)]
 fn tip_to_cylinders(machine: &Machine<f32>, tip: &PlaneTip<f32>) -> Result<Cylinders<f32>, PoseError<f32>> {
     machine.tip_to_cylinders(tip)
+}
+
+#[inline(never)]
+fn angles_cylinders_to_tip(seed: &Dimensions, cylinders: &[f32; 3]) -> [f32; 3] {
+    seed.cylinders_to_tip(0.3, *cylinders)
+}
+
+#[inline(never)]
+fn angles_tip_to_cylinders(seed: &Dimensions, tip: &[f32; 3]) -> [f32; 3] {
+    seed.tip_to_cylinders(*tip)
 }
 
 #[inline(never)]
@@ -87,5 +98,17 @@ fn main() -> ! {
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));
+
+    // The papers' formulas with libm, on the paper's machine, inches.
+    let seed = black_box(Dimensions::new());
+    let strokes = [(29.0, 46.5434), (27.699, 41.9298), (22.0242, 38.6144)];
+    let along = |t: f32| strokes.map(|(min, max)| min + (0.01 + 0.98 * t) * (max - min));
+    row(&mut out, s, "angles_cylinders_to_tip", along, |c| angles_cylinders_to_tip(&seed, c));
+    let tip = |t: f32| {
+        let joints = seed.cyl_to_joint(along(t));
+        let [x, _, z] = seed.jdisp(0.0, joints);
+        [x, z, joints[0] + joints[1] + joints[2]]
+    };
+    row(&mut out, s, "angles_tip_to_cylinders", tip, |tip| angles_tip_to_cylinders(&seed, tip));
     succeed()
 }

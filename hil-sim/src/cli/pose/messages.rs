@@ -68,30 +68,12 @@ pub(super) fn open(geometry: &PinGeometry, cylinder: Cylinder, length_m: f64, by
     failure(Kind::NoAssembly, message)
 }
 
-/// A joint angle at which the linkage does not close.
+/// A joint angle that no length gives: the linkage does not close there, or the angle lies beyond its dead point.
 pub(super) fn no_length(geometry: &PinGeometry, cylinder: Cylinder, joint: Rotor<f64>, by: f64) -> Failure {
     let limits = limits(geometry, cylinder);
     let (degrees, by) = (short(angle::degrees(joint)), short(by));
     let message = format!(
-        "{cylinder} cylinder: no length puts the {cylinder} at {degrees}°: the linkage misses closing by {by} m; {limits}"
-    );
-    failure(Kind::NoAssembly, message)
-}
-
-/// A joint angle beyond a dead point: the length that fits it belongs to another angle.
-pub(super) fn beyond_dead_point(
-    geometry: &PinGeometry,
-    cylinder: Cylinder,
-    joint: Rotor<f64>,
-    length_m: f64,
-    instead: Rotor<f64>,
-) -> Failure {
-    let limits = limits(geometry, cylinder);
-    let [degrees, instead] = [joint, instead].map(|r| short(angle::degrees(r)));
-    let length_m = short(length_m);
-    let message = format!(
-        "{cylinder} cylinder: no length puts the {cylinder} at {degrees}°, which lies beyond a dead point of its \
-         linkage: {length_m} m puts it at {instead}°; {limits}"
+        "{cylinder} cylinder: no length puts the {cylinder} at {degrees}°: its linkage would not close, or be beyond its dead point, by {by} m; {limits}"
     );
     failure(Kind::NoAssembly, message)
 }

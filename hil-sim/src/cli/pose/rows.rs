@@ -126,7 +126,9 @@ impl Header {
         ];
         for (i, column) in columns.iter().enumerate() {
             if *column != SWING && !forms.iter().any(|(_, names)| names.contains(column)) {
-                return Err(bad(format!("unknown column `{column}`")));
+                // What is no header may be anything, of any length.
+                let shown: String = column.chars().take(40).flat_map(char::escape_debug).collect();
+                return Err(bad(format!("unknown column `{shown}`")));
             }
             if columns[..i].contains(column) {
                 return Err(bad(format!("column `{column}` stands twice")));

@@ -1,7 +1,7 @@
 //! Any description → the whole report, in one number type, every refusal a sentence.
 
 use kinematics_core::geometry::GeometryError;
-use kinematics_core::{Cylinder, Cylinders, Joints, Machine, PinGeometry, PlaneTip, PoseError, Real, Rotor};
+use kinematics_core::{Cylinder, Cylinders, Joints, Machine, PinGeometry, PlaneTip, PoseError, Real};
 
 use super::angle;
 use super::description::{Description, finite};
@@ -9,19 +9,12 @@ use super::messages;
 use super::report::{InPlane, PerLink, Report, Tip};
 use super::{Failure, Kind, Number};
 
-/// Joints that come back from their cylinder lengths within this are on the assembly's side of every dead point, rad.
-/// At a dead point itself f64 leaves 1e-7.
-const SAME_ANGLE_RAD: f64 = 1e-6;
-
-/// A gap of this size at a dead point is rounding, m.
-const CLOSED_M: f64 = 1e-9;
-
 /// The poses of one machine in T.
 #[derive(Debug)]
 pub struct Solver<T> {
     geometry: PinGeometry,
     machine: Machine<T>,
-    /// Tells on which side of a dead point a joint lies: a question about the machine, not about T's rounding.
+    /// Tells whether a linkage closes: a question about the machine, not about T's rounding.
     exact: Machine<f64>,
     allow_outside: bool,
 }
@@ -122,41 +115,11 @@ impl<T: Number> Solver<T> {
         self.machine.joints_to_cylinders_any_stroke(joints).map_err(|e| self.explain_joints(&e, exact))
     }
 
-    /// Beyond the folded or stretched position of a linkage the inverse map still yields a length, that of the mirrored
-    /// angle. Such a joint does not come back, and no cylinder puts it there.
+    /// Whether some length gives each joint: asked in f64, so that rounding in T does not decide near a dead point.
     fn check_assembly(&self, joints: &Joints<f64>) -> Result<(), Failure> {
-        let cylinders =
-            self.exact.joints_to_cylinders_any_stroke(joints).map_err(|e| self.explain_joints(&e, joints))?;
-        for cylinder in [Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket] {
-            let length = messages::length(&cylinders, cylinder);
-            let joint = messages::joint(joints, cylinder);
-            match self.alone(cylinder, length) {
-                Ok(back) => {
-                    let apart = (back * joint.inverse()).angle();
-                    if !(-SAME_ANGLE_RAD..=SAME_ANGLE_RAD).contains(&apart) {
-                        return Err(messages::beyond_dead_point(&self.geometry, cylinder, joint, length, back));
-                    }
-                }
-                Err(by) if by <= CLOSED_M => {}
-                Err(by) => return Err(messages::open(&self.geometry, cylinder, length, by)),
-            }
-        }
-        Ok(())
-    }
-
-    /// The joint one cylinder gives, the others standing at an end of their strokes, where they are known to close.
-    fn alone(&self, cylinder: Cylinder, length: f64) -> Result<Rotor<f64>, f64> {
-        let g = &self.geometry;
-        let mut cylinders =
-            Cylinders { boom: g.boom.stroke.min_m, arm: g.arm.stroke.min_m, bucket: g.bucket.stroke.min_m };
-        match cylinder {
-            Cylinder::Boom => cylinders.boom = length,
-            Cylinder::Arm => cylinders.arm = length,
-            Cylinder::Bucket | Cylinder::Swing => cylinders.bucket = length,
-        }
-        match self.exact.cylinders_to_joints_any_stroke(&cylinders) {
-            Ok(joints) => Ok(messages::joint(&joints, cylinder)),
-            Err(error) => Err(excess(&error)),
+        match self.exact.joints_to_cylinders_any_stroke(joints) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(self.explain_joints(&error, joints)),
         }
     }
 
@@ -167,10 +130,7 @@ impl<T: Number> Solver<T> {
                 messages::out_of_stroke(&self.geometry, cylinder, length(cylinder))
             }
             PoseError::NoAssembly { cylinder, by } => {
-                let length = length(cylinder);
-                // T may not hold the gap of an absurd length.
-                let by = self.alone(cylinder, length).err().unwrap_or_else(|| by.to_f64());
-                messages::open(&self.geometry, cylinder, length, by)
+                messages::open(&self.geometry, cylinder, length(cylinder), by.to_f64())
             }
             PoseError::Unreachable { by } => {
                 let message = format!("the bucket pin is {by} m outside what boom and arm reach");
