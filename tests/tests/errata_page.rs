@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 
 const PAGE: &str = include_str!("../../docs/errata.md");
-/// A file of tests a paper, every test named after its paper.
-const SOURCES: [(&str, &str); 4] = [
+/// The files of tests, every test named after its paper.
+const SOURCES: [(&str, &str); 6] = [
     ("koivo_", include_str!("errata_koivo.rs")),
+    ("koivo_", include_str!("errata_koivo_rates.rs")),
     ("frankel_", include_str!("errata_frankel.rs")),
+    ("frankel_", include_str!("errata_frankel_dig.rs")),
     ("hareesha_", include_str!("errata_hareesha.rs")),
     ("park_", include_str!("errata_park.rs")),
 ];
