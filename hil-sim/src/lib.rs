@@ -7,9 +7,11 @@
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
+//! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod labels;
 pub mod machine_file;
 pub mod place;
 pub mod plant;

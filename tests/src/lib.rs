@@ -4,6 +4,7 @@
 //! - [`golden`]: the golden values, read from `tests/data`;
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
+//! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
@@ -11,6 +12,7 @@ pub mod golden;
 pub mod machines;
 pub mod measure;
 pub mod oracle;
+pub mod papers;
 pub mod promises;
 pub mod rig;
 pub mod stated;
