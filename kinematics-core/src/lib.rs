@@ -14,7 +14,8 @@
 //! 2. [`triangle`] and [`four_bar`] — cylinder ↔ joint;
 //! 3. [`chain`] — joints ↔ tip and wrist;
 //! 4. [`machine`] — all of it together: [`Machine::cylinders_to_tip`], [`Machine::tip_to_cylinders`];
-//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices.
+//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
+//! 6. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them).
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
@@ -37,6 +38,8 @@ pub mod distances;
 mod error;
 pub mod four_bar;
 pub mod geometry;
+pub mod isotropic_configurations;
+pub mod isotropy;
 pub mod machine;
 pub mod matrix;
 mod real;
@@ -44,6 +47,8 @@ mod rotor;
 mod sector;
 mod sqrt;
 mod stroke;
+pub mod svd;
+pub mod svd3;
 pub mod swing;
 pub mod triangle;
 mod validate;

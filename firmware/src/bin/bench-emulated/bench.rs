@@ -4,7 +4,8 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor};
+use kinematics_core::isotropy::singularity_distance;
+use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::emulated::link::Link;
@@ -35,6 +36,20 @@ fn tip_to_cylinders(machine: &Machine<f32>, tip: &PlaneTip<f32>) -> Result<Cylin
 #[inline(never)]
 fn rotor_from_turns(turns: f32) -> Rotor<f32> {
     Rotor::from_turns(turns)
+}
+
+#[inline(never)]
+fn singularity_distance_3(jacobian: &[[f32; 3]; 2]) -> f32 {
+    singularity_distance(jacobian)
+}
+
+/// Hareesha 2015 (12).
+fn jacobian([l2, l3, l4]: [f32; 3], joints: &Joints<f32>) -> [[f32; 3]; 2] {
+    let (boom, arm, pitch) = (joints.boom, joints.boom * joints.arm, joints.pitch());
+    let (x4, z4) = (l4 * pitch.cos, l4 * pitch.sin);
+    let (x3, z3) = (x4 + l3 * arm.cos, z4 + l3 * arm.sin);
+    let (x2, z2) = (x3 + l2 * boom.cos, z3 + l2 * boom.sin);
+    [[-z2, -z3, -z4], [x2, x3, x4]]
 }
 
 struct Out(Link);
@@ -87,5 +102,8 @@ fn main() -> ! {
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));
+    let lengths = [geometry.boom_m, geometry.arm_m, geometry.bucket_m].map(|l| l as f32);
+    let jacobian = |t: f32| jacobian(lengths, &m.cylinders_to_tip_unchecked(&along(t), swing).joints);
+    row(&mut out, s, "singularity_distance_3", jacobian, singularity_distance_3);
     succeed()
 }
