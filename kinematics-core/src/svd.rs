@@ -42,6 +42,26 @@ impl<T: Real> Gram<T> {
         Self { mean: half * sum, stretch: half * difference, shear, det }
     }
 
+    /// J·V·Jᵀ with the diagonal V of `weights`, none negative: that of the Jacobian whose columns are √V times as long.
+    #[inline(always)]
+    pub fn weighted<const N: usize>(jacobian: &[[T; N]; 2], weights: &[T; N]) -> Self {
+        let [reach, height] = jacobian;
+        let (mut sum, mut difference, mut shear, mut det) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
+        let mut columns = reach.iter().zip(height).zip(weights);
+        while let Some(((&x, &z), &weight)) = columns.next() {
+            let (weighted_x, weighted_z) = (weight * x, weight * z);
+            sum = sum + (weighted_x * x + weighted_z * z);
+            difference = difference + (weighted_x - weighted_z) * (x + z);
+            shear = shear + weighted_x * z;
+            for ((&other_x, &other_z), &other_weight) in columns.clone() {
+                let minor = x * other_z - z * other_x;
+                det = det + (weight * other_weight) * (minor * minor);
+            }
+        }
+        let half = T::from_f64(0.5);
+        Self { mean: half * sum, stretch: half * difference, shear, det }
+    }
+
     /// Half the difference of both eigenvalues, σ₁² − σ₂² over two.
     #[inline(always)]
     pub fn half_gap(&self) -> T {

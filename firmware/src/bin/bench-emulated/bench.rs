@@ -4,8 +4,11 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use kinematics_core::chain_n::PlanarChain;
 use kinematics_core::isotropy::singularity_distance;
-use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor};
+use kinematics_core::joint_range::JointRange;
+use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
+use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::emulated::link::Link;
@@ -43,13 +46,12 @@ fn singularity_distance_3(jacobian: &[[f32; 3]; 2]) -> f32 {
     singularity_distance(jacobian)
 }
 
-/// Hareesha 2015 (12).
-fn jacobian([l2, l3, l4]: [f32; 3], joints: &Joints<f32>) -> [[f32; 3]; 2] {
-    let (boom, arm, pitch) = (joints.boom, joints.boom * joints.arm, joints.pitch());
-    let (x4, z4) = (l4 * pitch.cos, l4 * pitch.sin);
-    let (x3, z3) = (x4 + l3 * arm.cos, z4 + l3 * arm.sin);
-    let (x2, z2) = (x3 + l2 * boom.cos, z3 + l2 * boom.sin);
-    [[-z2, -z3, -z4], [x2, x3, x4]]
+/// Joints, tip velocity and second wish, all unknown to the compiler.
+type Motion = ([Rotor<f32>; 3], Vec2<f32>, [f32; 3]);
+
+#[inline(never)]
+fn redundancy_3(redundancy: &Redundancy<f32, 3>, (joints, velocity, wish): &Motion) -> Rates<f32, 3> {
+    redundancy.rates(joints, *velocity, wish)
 }
 
 struct Out(Link);
@@ -102,8 +104,28 @@ fn main() -> ! {
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));
-    let lengths = [geometry.boom_m, geometry.arm_m, geometry.bucket_m].map(|l| l as f32);
-    let jacobian = |t: f32| jacobian(lengths, &m.cylinders_to_tip_unchecked(&along(t), swing).joints);
-    row(&mut out, s, "singularity_distance_3", jacobian, singularity_distance_3);
+    let end = |l: [f64; 3]| {
+        let [boom, arm, bucket] = l;
+        Machine::<f64>::new(&geometry)
+            .map(|m| m.cylinders_to_tip_unchecked(&Cylinders { boom, arm, bucket }, Rotor::IDENTITY).joints)
+    };
+    let strokes = [geometry.boom.stroke, geometry.arm.stroke, geometry.bucket.stroke];
+    let (Ok(short), Ok(long)) = (end(strokes.map(|s| s.min_m)), end(strokes.map(|s| s.max_m))) else { fail() };
+    let ranges = [
+        JointRange::between(short.boom, long.boom),
+        JointRange::between(long.arm, short.arm),
+        JointRange::between(long.bucket, short.bucket),
+    ];
+    let parameters = RedundancyParameters { ranges, mobility: [1.0; 3], trusted_m: 0.2, retreat_rad_s: 0.1 };
+    let Ok(redundancy) = Redundancy::new(PlanarChain::from(m.chain()), parameters) else { fail() };
+    let redundancy = black_box(redundancy);
+    let joints = |t: f32| {
+        let joints = m.cylinders_to_tip_unchecked(&along(t), swing).joints;
+        [joints.boom, joints.arm, joints.bucket]
+    };
+    let chain = redundancy.chain();
+    row(&mut out, s, "singularity_distance_3", |t| chain.jacobian(&joints(t)), singularity_distance_3);
+    let motion = |t: f32| (joints(t), Vec2::new(0.3, -t), [0.0, -0.1, t]);
+    row(&mut out, s, "redundancy_3", motion, |j| redundancy_3(&redundancy, j));
     succeed()
 }
