@@ -16,6 +16,7 @@ use crate::{Real, Rotor, Vec2};
 /// let joints = [Rotor::IDENTITY, quarter.inverse(), quarter];
 /// assert_eq!(chain.tip(&joints), Vec2::new(2.5, -1.0));
 /// assert_eq!(chain.jacobian(&joints), [[1.0, 1.0, 0.0], [2.5, 0.5, 0.5]]);
+/// assert_eq!(chain.tip_and_jacobian(&joints), (chain.tip(&joints), chain.jacobian(&joints)));
 /// ```
 /// ```compile_fail
 /// let too_short = kinematics_core::chain_n::PlanarChain::new([1.0f32]);

@@ -86,7 +86,8 @@ pub struct Rates<T, const N: usize> {
 ///   J⁺v + (I − J⁺J)b, without a projector. A joint of mobility 0 keeps b.
 /// - The damping rule is λ² = max(0, s² − σ₂²) with σ₂ the smallest singular value of J·√V and s the `trusted` one, m:
 ///   none above s, then just enough that the smallest eigenvalue inverted is s². It is continuous, and
-///   Σ(θ̇−b)²/V ≤ |v − J·b|²/s² at every pose, singular or not.
+///   Σ(θ̇−b)²/V ≤ |v − J·b|²/s² at every pose, singular or not. s must be above 0 and s⁴ a number of T;
+///   [`Redundancy::new`] sees to it.
 ///
 /// ```
 /// use kinematics_core::Vec2;

@@ -10,6 +10,18 @@
 use crate::{Real, Rotor};
 
 /// JJᵀ of a 2 × N Jacobian (rows reach, height) as the parts that matter: mean·I + [stretch shear; shear −stretch].
+///
+/// ```
+/// use kinematics_core::svd::Gram;
+/// let jacobian = [[2.0f64, 1.0, 0.0], [0.0, 1.0, 2.0]];
+/// let gram = Gram::of(&jacobian);
+/// assert_eq!(gram, Gram { mean: 5.0, stretch: 0.0, shear: 1.0, det: 24.0 });
+/// // The eigenvalues are mean ± half_gap, σ₁² = 6 and σ₂² = 4.
+/// assert_eq!(gram.half_gap(), 1.0);
+/// assert!((gram.singular().smallest - 2.0).abs() < 1e-15);
+/// // Without the middle joint.
+/// assert_eq!(Gram::weighted(&jacobian, &[1.0, 0.0, 1.0]), Gram { mean: 4.0, stretch: 0.0, shear: 0.0, det: 16.0 });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gram<T> {
     /// (|J₁|² + |J₂|²)/2, half the trace.
@@ -93,6 +105,7 @@ impl<T: Real> Gram<T> {
 /// let found = Singular::of(&[[1.8f64, -0.8], [2.4, 0.6]]);
 /// assert!((found.largest - 3.0).abs() < 1e-15 && (found.smallest - 1.0).abs() < 1e-15);
 /// assert!((found.direction.cos - 0.6).abs() < 1e-15 && (found.direction.sin - 0.8).abs() < 1e-15);
+/// assert!((found.across().cos + 0.8).abs() < 1e-15 && (found.across().sin - 0.6).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular<T> {

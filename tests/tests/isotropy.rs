@@ -279,6 +279,33 @@ fn three_by_three_matrices_come_apart_into_orthonormal_axes() {
 }
 
 #[test]
+fn a_small_singular_value_of_a_three_by_three_jacobian_keeps_its_digits() {
+    let mut random = Random::new(37);
+    for _ in 0..2_000 {
+        let [u, v] = [0; 2].map(|_| svd3(&matrix3::<f64>(&mut random)).right);
+        let sigma = [1.0, 10f64.powf(-3.0 * random.unit()), 10f64.powf(-4.0 - 8.0 * random.unit())];
+        let mut m = [[0.0; 3]; 3];
+        for (row, i) in m.iter_mut().zip(0..) {
+            for (entry, k) in row.iter_mut().zip(0..) {
+                *entry = (0..3).map(|n: usize| sigma[n] * u[n][i as usize] * v[n][k as usize]).sum();
+            }
+        }
+        let found = svd3(&m);
+        for (found, expected) in found.values.iter().zip(sigma) {
+            assert!((found - expected).abs() < 4e-15, "{found}, not {expected}");
+        }
+        let condition = found.condition_number().unwrap();
+        assert!((condition * sigma[2] - 1.0).abs() < 1e-14 / sigma[2], "{condition}");
+        for (size, sigma) in found.force_axes().unwrap().iter().zip(found.values) {
+            assert_eq!(*size, 1.0 / sigma);
+        }
+    }
+    let singular = svd3(&[[1.0f32, 2.0, 3.0], [2.0, 4.0, 6.0], [0.0, 0.0, 0.0]]);
+    assert!(singular.condition_number().is_none_or(|condition| condition > 1e6));
+    assert_eq!(svd3(&[[0.0f32; 3]; 3]).force_axes(), None);
+}
+
+#[test]
 fn hareeshas_18_and_20_are_17_and_19_with_angles_from_the_boom_line() {
     let mut random = Random::new(17);
     let (mut by_relative, mut by_printed_19) = (0.0f64, 0.0f64);
