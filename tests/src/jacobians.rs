@@ -19,7 +19,7 @@ pub fn rounded<T: Real, const N: usize>(j: &[[f64; N]; 2]) -> [[T; N]; 2] {
     j.map(|row| row.map(T::from_f64))
 }
 
-/// Singular values in double-double arithmetic from the same numbers: (trace ± √(trace² − 4 det))/2 with 100 bits to lose.
+/// Singular values in double-double arithmetic from the same numbers: 100 bits, half of which JJᵀ may lose.
 pub fn exact_singular<T: Real, const N: usize>(j: &[[T; N]; 2]) -> [f64; 2] {
     let wide = |x: T| Wide::from_f64(x.to_f64());
     let dot =
