@@ -1,6 +1,7 @@
 //! Simulated machine and hardware for the excavator controller.
 //!
 //! - [`machine_file`] — a machine's geometry from TOML;
+//! - [`machine_report`] — what an engineer asks of a machine as a whole;
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
@@ -13,6 +14,7 @@
 pub mod cli;
 pub mod labels;
 pub mod machine_file;
+pub mod machine_report;
 pub mod place;
 pub mod plant;
 pub mod report;

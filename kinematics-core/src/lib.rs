@@ -14,7 +14,9 @@
 //! 2. [`triangle`] and [`four_bar`] — cylinder ↔ joint;
 //! 3. [`chain`] — joints ↔ tip and wrist;
 //! 4. [`machine`] — all of it together: [`Machine::cylinders_to_tip`], [`Machine::tip_to_cylinders`];
-//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices.
+//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
+//! 6. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them);
+//! 7. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]).
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
@@ -33,17 +35,24 @@
 #![cfg_attr(not(target_arch = "arm"), forbid(unsafe_code))]
 
 pub mod chain;
+pub mod chain_n;
 pub mod distances;
 mod error;
 pub mod four_bar;
 pub mod geometry;
+pub mod isotropic_configurations;
+pub mod isotropy;
+pub mod joint_range;
 pub mod machine;
 pub mod matrix;
 mod real;
+pub mod redundancy;
 mod rotor;
 mod sector;
 mod sqrt;
 mod stroke;
+pub mod svd;
+pub mod svd3;
 pub mod swing;
 pub mod triangle;
 mod validate;

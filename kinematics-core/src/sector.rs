@@ -26,6 +26,11 @@ impl<T: Real> Sector<T> {
         }
     }
 
+    /// The arc's middle and the cosine of half its width.
+    pub(crate) fn middle_and_half_width_cos(&self) -> (Rotor<T>, T) {
+        (self.middle, self.half_width_cos)
+    }
+
     /// Whether the rotor lies in the arc, to rounding; false for what is not a number.
     #[inline(always)]
     pub(crate) fn contains(&self, rotor: Rotor<T>) -> bool {

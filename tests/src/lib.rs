@@ -4,11 +4,13 @@
 //! - [`golden`]: the golden values, read from `tests/data`;
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
+//! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
 pub mod golden;
+pub mod jacobians;
 pub mod machines;
 pub mod measure;
 pub mod oracle;

@@ -5,7 +5,11 @@ use core::hint::black_box;
 
 use bench::seed::single::Dimensions;
 use cortex_m_rt::entry;
-use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor};
+use kinematics_core::chain_n::PlanarChain;
+use kinematics_core::isotropy::singularity_distance;
+use kinematics_core::joint_range::JointRange;
+use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
+use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::emulated::link::Link;
@@ -48,6 +52,19 @@ fn rotor_from_turns(turns: f32) -> Rotor<f32> {
     Rotor::from_turns(turns)
 }
 
+#[inline(never)]
+fn singularity_distance_3(jacobian: &[[f32; 3]; 2]) -> f32 {
+    singularity_distance(jacobian)
+}
+
+/// Joints, tip velocity and second wish, all unknown to the compiler.
+type Motion = ([Rotor<f32>; 3], Vec2<f32>, [f32; 3]);
+
+#[inline(never)]
+fn redundancy_3(redundancy: &Redundancy<f32, 3>, (joints, velocity, wish): &Motion) -> Rates<f32, 3> {
+    redundancy.rates(joints, *velocity, wish)
+}
+
 struct Out(Link);
 
 impl Write for Out {
@@ -71,6 +88,20 @@ fn row<I, O>(out: &mut Out, stopwatch: &Stopwatch, name: &str, input: impl Fn(f3
     if writeln!(out, "{name} {} {}", counts[RUNS / 2], counts[RUNS - 1]).is_err() {
         fail();
     }
+}
+
+/// The papers' formulas with libm, on the paper's machine, inches.
+fn angles(out: &mut Out, stopwatch: &Stopwatch) {
+    let seed = black_box(Dimensions::new());
+    let strokes = [(29.0, 46.5434), (27.699, 41.9298), (22.0242, 38.6144)];
+    let along = |t: f32| strokes.map(|(min, max)| min + (0.01 + 0.98 * t) * (max - min));
+    row(out, stopwatch, "angles_cylinders_to_tip", along, |c| angles_cylinders_to_tip(&seed, c));
+    let tip = |t: f32| {
+        let joints = seed.cyl_to_joint(along(t));
+        let [x, _, z] = seed.jdisp(0.0, joints);
+        [x, z, joints[0] + joints[1] + joints[2]]
+    };
+    row(out, stopwatch, "angles_tip_to_cylinders", tip, |tip| angles_tip_to_cylinders(&seed, tip));
 }
 
 #[entry]
@@ -98,17 +129,29 @@ fn main() -> ! {
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));
-
-    // The papers' formulas with libm, on the paper's machine, inches.
-    let seed = black_box(Dimensions::new());
-    let strokes = [(29.0, 46.5434), (27.699, 41.9298), (22.0242, 38.6144)];
-    let along = |t: f32| strokes.map(|(min, max)| min + (0.01 + 0.98 * t) * (max - min));
-    row(&mut out, s, "angles_cylinders_to_tip", along, |c| angles_cylinders_to_tip(&seed, c));
-    let tip = |t: f32| {
-        let joints = seed.cyl_to_joint(along(t));
-        let [x, _, z] = seed.jdisp(0.0, joints);
-        [x, z, joints[0] + joints[1] + joints[2]]
+    let end = |l: [f64; 3]| {
+        let [boom, arm, bucket] = l;
+        Machine::<f64>::new(&geometry)
+            .map(|m| m.cylinders_to_tip_unchecked(&Cylinders { boom, arm, bucket }, Rotor::IDENTITY).joints)
     };
-    row(&mut out, s, "angles_tip_to_cylinders", tip, |tip| angles_tip_to_cylinders(&seed, tip));
+    let strokes = [geometry.boom.stroke, geometry.arm.stroke, geometry.bucket.stroke];
+    let (Ok(short), Ok(long)) = (end(strokes.map(|s| s.min_m)), end(strokes.map(|s| s.max_m))) else { fail() };
+    let ranges = [
+        JointRange::between(short.boom, long.boom),
+        JointRange::between(long.arm, short.arm),
+        JointRange::between(long.bucket, short.bucket),
+    ];
+    let parameters = RedundancyParameters { ranges, mobility: [1.0; 3], trusted_m: 0.2, retreat_rad_s: 0.1 };
+    let Ok(redundancy) = Redundancy::new(PlanarChain::from(m.chain()), parameters) else { fail() };
+    let redundancy = black_box(redundancy);
+    let joints = |t: f32| {
+        let joints = m.cylinders_to_tip_unchecked(&along(t), swing).joints;
+        [joints.boom, joints.arm, joints.bucket]
+    };
+    let chain = redundancy.chain();
+    row(&mut out, s, "singularity_distance_3", |t| chain.jacobian(&joints(t)), singularity_distance_3);
+    let motion = |t: f32| (joints(t), Vec2::new(0.3, -t), [0.0, -0.1, t]);
+    row(&mut out, s, "redundancy_3", motion, |j| redundancy_3(&redundancy, j));
+    angles(&mut out, s);
     succeed()
 }
