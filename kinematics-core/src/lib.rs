@@ -14,7 +14,9 @@
 //! 2. [`triangle`] and [`four_bar`] — cylinder ↔ joint;
 //! 3. [`chain`] — joints ↔ tip and wrist;
 //! 4. [`machine`] — all of it together: [`Machine::cylinders_to_tip`], [`Machine::tip_to_cylinders`];
-//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices.
+//! 5. [`rates`], [`jacobian`], [`cylinder_jacobian`], [`swing_jacobian`] — how fast: cylinders ↔ joints ↔ tip, and how they
+//!    accelerate; [`forces`] and [`payload`] — how strong: cylinders ↔ joints ↔ tip, and what the bucket carries;
+//! 6. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices.
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
@@ -33,18 +35,25 @@
 #![cfg_attr(not(target_arch = "arm"), forbid(unsafe_code))]
 
 pub mod chain;
+pub mod cylinder_jacobian;
 pub mod distances;
 mod error;
+pub mod forces;
 pub mod four_bar;
 pub mod geometry;
+pub mod jacobian;
 pub mod machine;
 pub mod matrix;
+pub mod payload;
+pub mod rates;
 mod real;
 mod rotor;
 mod sector;
+mod singular;
 mod sqrt;
 mod stroke;
 pub mod swing;
+pub mod swing_jacobian;
 pub mod triangle;
 mod validate;
 pub mod world;
@@ -55,4 +64,5 @@ pub use geometry::{GeometryError, PinGeometry};
 pub use machine::{Cylinders, Machine, Pose};
 pub use real::{Real, Split};
 pub use rotor::{Rotor, Vec2};
+pub use singular::Singular;
 pub use stroke::STROKE_TOLERANCE_M;

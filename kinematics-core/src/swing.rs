@@ -30,6 +30,16 @@ impl<T: Real> SwingCylinder<T> {
         self.triangle.rotor(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
     }
 
+    /// Cylinder length (m) → moment arm dL/dθ1 (m/rad).
+    ///
+    /// # Errors
+    /// As [`SwingCylinder::rotor`].
+    #[inline]
+    pub fn moment_arm(&self, length: T) -> Result<T, PoseError<T>> {
+        self.stroke.check(Cylinder::Swing, length)?;
+        self.triangle.moment_arm(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
+    }
+
     /// Rotor of θ1 → cylinder length (m).
     ///
     /// # Errors
