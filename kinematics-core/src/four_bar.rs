@@ -147,7 +147,11 @@ impl<T: Real> FourBar<T> {
     pub fn moment_arm(&self, length: T) -> Result<T, Gap<T>> {
         let placed = self.place(length)?;
         let sweep = self.sweep_checked(&placed)?;
-        Ok(placed.root * placed.rocker.root * placed.square / (self.rocker.turned(length) * sweep))
+        if length > T::ZERO {
+            Ok(placed.root * placed.rocker.root * placed.square / (self.rocker.turned(length) * sweep))
+        } else {
+            Err(Gap(-length))
+        }
     }
 
     /// Rotor of θ4 → moment arm dL/dθ4 (m/rad); [`FourBar::moment_arm`] for a joint that is given, not measured.
@@ -218,15 +222,11 @@ impl<T: Real> FourBar<T> {
         (placed.k - self.pivot_from_pin.scale(placed.square + placed.square)).cross(placed.rocker.vector)
     }
 
-    /// [`FourBar::sweep`], or how far the rocker pivot lies beyond the coupler's line.
+    /// [`FourBar::sweep`], or an error where rocker and coupler are in line and the moment arm has no bound.
     #[inline(always)]
     fn sweep_checked(&self, placed: &Placed<T>) -> Result<T, Gap<T>> {
         let sweep = self.sweep(placed);
-        if sweep > T::ZERO {
-            Ok(sweep)
-        } else {
-            Err(Gap(-(sweep * placed.reciprocal) / (self.sides[1] + self.sides[1])))
-        }
+        if sweep != T::ZERO { Ok(sweep) } else { Err(Gap(T::ZERO)) }
     }
 
     /// |J − P|², |J − P|² + |H|² − c², and what is under the root.
