@@ -3,6 +3,23 @@
 //! Koivo 1994 (14)–(18), (29) need ε3 from a sensor and Frankel 2003 (15) searches; two intersections of circles, one square
 //! root and one division each, need neither. E cylinder base, I rocker pivot, P = (a3, 0) bucket pin (arm frame),
 //! H coupler pin (bucket frame), J common pin of rod, rocker and coupler, K the coupler pin in the arm frame.
+//!
+//! ```
+//! use kinematics_core::four_bar::FourBar;
+//! use kinematics_core::{PinGeometry, Vec2};
+//! let PinGeometry { arm_m, bucket: pins, .. } = PinGeometry::EXACT_MINI;
+//! let pin = Vec2::new(arm_m, 0.0);
+//! let linkage =
+//!     FourBar::<f64>::new(pins.base, pins.rocker_pivot, pin, pins.coupler_pin, pins.rocker_m, pins.coupler_m);
+//! let bucket = linkage.rotor(1.0).unwrap();
+//! assert!((linkage.length(bucket).unwrap() - 1.0).abs() < 1e-15);
+//! // The moment arm of the length and of the joint, and its slope by a difference.
+//! let moment = linkage.moment(1.0).unwrap();
+//! assert!((linkage.moment_arm(1.0).unwrap() - moment.arm).abs() < 1e-15);
+//! assert!((linkage.moment_arm_at(bucket).unwrap() - moment.arm).abs() < 1e-14);
+//! let change = linkage.moment_arm(1.0 + 1e-6).unwrap() - linkage.moment_arm(1.0 - 1e-6).unwrap();
+//! assert!((change / 2e-6 * moment.arm - moment.slope).abs() < 1e-9);
+//! ```
 
 use crate::triangle::{Closed, Moment, Side, Triangle};
 use crate::{Real, Rotor, Vec2};

@@ -16,6 +16,13 @@
 //! assert!((reach[0] * 0.1 - reach[1] * 0.2 + reach[2] * 0.3 - twist.reach).abs() < 1e-15);
 //! assert_eq!(jacobian.matrix_2x3()[0], reach);
 //! assert_eq!(pitch, [1.0, 1.0, 1.0]);
+//! // Each column is a lever turned by 90°; the determinant is a2·a3·sin θ3.
+//! let [from_boom_pin, ..] = jacobian.levers();
+//! assert_eq!(reach[0], -from_boom_pin.z);
+//! let [_, a2, a3, _] = machine.chain().lengths();
+//! assert_eq!(jacobian.determinant(), a2 * a3 * joints.arm.sin);
+//! // Of the wrist the bucket joint moves nothing.
+//! assert_eq!(machine.chain().wrist_jacobian(&joints).matrix_2x3()[1][2], 0.0);
 //! # Ok(())
 //! # }
 //! ```
@@ -197,6 +204,9 @@ impl<T: Real> PlanarJacobian<T> {
     /// };
     /// let ellipse = chain.jacobian(&turned(-90.0, -120.0, -150.0)).velocity_ellipse();
     /// assert!((ellipse.major - 1.5f64.sqrt()).abs() < 1e-15 && (ellipse.condition_number()? - 1.0).abs() < 1e-15);
+    /// // Where velocity is large force is small, and the other way round.
+    /// let force = ellipse.dual()?;
+    /// assert!((force.major * ellipse.minor - 1.0).abs() < 1e-15);
     /// // A straight line of links moves across itself alone.
     /// let straight = chain.jacobian(&turned(30.0, 0.0, 0.0)).velocity_ellipse();
     /// assert_eq!(straight.condition_number(), Err(Singular::LinksInLine));

@@ -15,6 +15,9 @@
 //! let joints = arms.joint_rates(&CylinderRates { boom: 0.1, arm: 0.0, bucket: -0.2 })?;
 //! let back = arms.cylinder_rates(&joints);
 //! assert!((back.boom - 0.1).abs() < 1e-7 && (back.bucket + 0.2).abs() < 1e-7);
+//! // Transmissions dθ/dL are their reciprocals.
+//! let [boom, ..] = arms.transmissions()?;
+//! assert!((boom * arms.boom - 1.0).abs() < 1e-6);
 //! # Ok(())
 //! # }
 //! ```
@@ -127,6 +130,7 @@ impl<T: Real> MomentArms<T> {
 /// let joints = moments.joint_accelerations(&rates, &cylinders)?;
 /// assert!(joints.boom.abs() < 1e-15 && joints.arm.abs() < 1e-15 && joints.bucket.abs() < 1e-15);
 /// // The moment arms themselves change.
+/// assert_eq!(moments.arms().boom, moments.boom.arm);
 /// assert_eq!(moments.rates(&rates).boom, moments.boom.slope * 0.3);
 /// # Ok(())
 /// # }

@@ -3,7 +3,7 @@
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
 //! use kinematics_core::rates::JointRates;
-//! use kinematics_core::swing_jacobian::MachineRates;
+//! use kinematics_core::swing_jacobian::{BaseWrench, MachineRates};
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! let machine = Machine::<f64>::new(&PinGeometry::EXACT_MINI)?;
 //! let joints = machine.cylinders_to_joints(&Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 })?;
@@ -16,6 +16,15 @@
 //! // Koivo's matrix as printed, and its fourth row as the angular velocity it is said to be.
 //! assert_eq!(jacobian.matrix()[3], [0.0, 1.0, 1.0, 1.0]);
 //! assert_eq!(jacobian.matrix_with_omega_y()[3], [0.0, -swing.cos, -swing.cos, -swing.cos]);
+//! // What the tip exerts sideways the swing must hold, at the tip's reach.
+//! let ahead = machine.chain().swing_jacobian(&joints, Rotor::IDENTITY);
+//! let (swing_torque, _) = ahead.torques(&BaseWrench { x: 0.0, y: 1000.0, z: 0.0, moment: 0.0 });
+//! let reach = machine.chain().tip(&joints).reach;
+//! assert!((swing_torque - 1000.0 * reach).abs() < 1e-9);
+//! // Swinging at 0.2 rad/s alone pulls the tip inwards.
+//! let still = JointRates { boom: 0.0, arm: 0.0, bucket: 0.0 };
+//! let bias = ahead.bias(&MachineRates { swing: 0.2, joints: still });
+//! assert!((bias.x + 0.04 * reach).abs() < 1e-15);
 //! # Ok(())
 //! # }
 //! ```

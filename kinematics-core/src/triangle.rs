@@ -5,6 +5,22 @@
 //! Koivo 1994 (10)–(13), Frankel 2003 (7), (9) without an angle. u and v are products of sums, so the relative accuracy
 //! survives near the dead points (α = 0, π), where `√(1 − cos²)` loses it; the constant sums are stored as
 //! hi + lo, for the same reason.
+//!
+//! ```
+//! use kinematics_core::triangle::{Side, Triangle};
+//! use kinematics_core::Vec2;
+//! // Two sides of 1 m, the cylinder across the right angle between them.
+//! let triangle = Triangle::<f64>::new(Vec2::new(1.0, 0.0), Vec2::new(1.0, 0.0), Side::CounterClockwise, 1.0);
+//! let length = 2.0f64.sqrt();
+//! let joint = triangle.rotor(length).unwrap();
+//! assert!(joint.cos.abs() < 1e-15 && (joint.sin - 1.0).abs() < 1e-15);
+//! assert!((triangle.length(joint).unwrap() - length).abs() < 1e-15);
+//! // It pulls at 0.71 m from the pin, of the length as of the joint; d²L/dθ² = −(dL/dθ)²/L here.
+//! let arm = triangle.moment_arm(length).unwrap();
+//! assert!((arm - 0.5f64.sqrt()).abs() < 1e-15);
+//! assert!((triangle.moment_arm_at(joint).unwrap() - arm).abs() < 1e-15);
+//! assert!((triangle.moment(length).unwrap().slope + arm * arm / length).abs() < 1e-15);
+//! ```
 
 use crate::{Real, Rotor, Split, Vec2};
 
