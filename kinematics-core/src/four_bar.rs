@@ -3,8 +3,25 @@
 //! Koivo 1994 (14)–(18), (29) need ε3 from a sensor and Frankel 2003 (15) searches; two intersections of circles, one square
 //! root and one division each, need neither. E cylinder base, I rocker pivot, P = (a3, 0) bucket pin (arm frame),
 //! H coupler pin (bucket frame), J common pin of rod, rocker and coupler, K the coupler pin in the arm frame.
+//!
+//! ```
+//! use kinematics_core::four_bar::FourBar;
+//! use kinematics_core::{PinGeometry, Vec2};
+//! let PinGeometry { arm_m, bucket: pins, .. } = PinGeometry::EXACT_MINI;
+//! let pin = Vec2::new(arm_m, 0.0);
+//! let linkage =
+//!     FourBar::<f64>::new(pins.base, pins.rocker_pivot, pin, pins.coupler_pin, pins.rocker_m, pins.coupler_m);
+//! let bucket = linkage.rotor(1.0).unwrap();
+//! assert!((linkage.length(bucket).unwrap() - 1.0).abs() < 1e-15);
+//! // The moment arm of the length and of the joint, and its slope by a difference.
+//! let moment = linkage.moment(1.0).unwrap();
+//! assert!((linkage.moment_arm(1.0).unwrap() - moment.arm).abs() < 1e-15);
+//! assert!((linkage.moment_arm_at(bucket).unwrap() - moment.arm).abs() < 1e-14);
+//! let change = linkage.moment_arm(1.0 + 1e-6).unwrap() - linkage.moment_arm(1.0 - 1e-6).unwrap();
+//! assert!((change / 2e-6 * moment.arm - moment.slope).abs() < 1e-9);
+//! ```
 
-use crate::triangle::{Side, Triangle};
+use crate::triangle::{Closed, Moment, Side, Triangle};
 use crate::{Real, Rotor, Vec2};
 
 /// Which part of the linkage does not close, and by how much (m).
@@ -33,6 +50,21 @@ pub struct FourBar<T> {
     squares: T,
     /// |H|, c and r, for messages.
     sides: [T; 3],
+}
+
+/// The linkage at one cylinder length, away from the forward map's dead points: what rotor and rates share.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed<T> {
+    rocker: Closed<T>,
+    /// J − P, |J − P|² and its reciprocal
+    j: Vec2<T>,
+    square: T,
+    reciprocal: T,
+    /// 2|J − P|²·(K − P)
+    k: Vec2<T>,
+    /// −2·(J − P) × (K − P) > 0
+    root: T,
+    pub(crate) rotor: Rotor<T>,
 }
 
 impl<T: Real> FourBar<T> {
@@ -124,6 +156,94 @@ impl<T: Real> FourBar<T> {
         let along = d.dot(self.pivot_from_base);
         let across = d.cross(self.pivot_from_base);
         (self.squares + (balance * along + discriminant.sqrt() * across) / square).sqrt()
+    }
+
+    /// Cylinder length (m) → moment arm dL/dθ4 (m/rad), by velocities along the coupler:
+    /// `[(K − P) × (K − J)]·[(J − I) × (J − E)] / [(J − I) × (K − J)]·L`, which is Koivo 1994 (34), (37) without ε3.
+    #[inline(always)]
+    pub fn moment_arm(&self, length: T) -> Result<T, Gap<T>> {
+        let placed = self.place(length)?;
+        let sweep = self.sweep_checked(&placed)?;
+        if length > T::ZERO {
+            Ok(placed.root * placed.rocker.root * placed.square / (self.rocker.turned(length) * sweep))
+        } else {
+            Err(Gap(-length))
+        }
+    }
+
+    /// Rotor of θ4 → moment arm dL/dθ4 (m/rad); [`FourBar::moment_arm`] for a joint that is given, not measured.
+    #[inline(always)]
+    pub fn moment_arm_at(&self, rotor: Rotor<T>) -> Result<T, Gap<T>> {
+        let length = self.length(rotor)?;
+        let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
+        let square = d.norm_squared();
+        let balance = square + self.rocker_balance;
+        let root = (self.four_rocker * square - balance * balance).sqrt();
+        // The sides of `length`: 2|d|² times −L·dL/dψ (ψ the rocker's angle) and times (K − P) × (J − P); √ = 2·d × (J − I).
+        let rocker_side = root * d.dot(self.pivot_from_base) - balance * d.cross(self.pivot_from_base);
+        let coupler_side = root * (square + d.dot(self.pivot_from_pin))
+            + (square - self.rocker_balance) * d.cross(self.pivot_from_pin);
+        if root > T::ZERO {
+            Ok(-(rocker_side * coupler_side) / ((square + square) * square * (length * root)))
+        } else {
+            Err(Gap(T::ZERO))
+        }
+    }
+
+    /// Cylinder length (m) → moment arm and its slope d²L/dθ4².
+    ///
+    /// With ψ the rocker's angle, p = K − P, j = J − P, s = J − I, k = K − I and g = dψ/dθ4 = (j × p)/(s × k):
+    /// `dg/dθ4 = (p·j − 2g·p·s + g²·s·k)/(s × k)` and `d²L/dθ4² = L″(ψ)·g² + L′(ψ)·dg/dθ4`.
+    #[inline]
+    pub fn moment(&self, length: T) -> Result<Moment<T>, Gap<T>> {
+        let placed = self.place(length)?;
+        self.sweep_checked(&placed)?;
+        let rocker = self.rocker.moment(length).map_err(Gap)?;
+        let half = T::from_f64(0.5);
+        let (j, s) = (placed.j, placed.rocker.vector);
+        let p = placed.k.scale(half * placed.reciprocal);
+        let k = p - self.pivot_from_pin;
+        let turning = s.cross(k);
+        let g = -(half * placed.root) / turning;
+        let g_slope = (p.dot(j) - (g + g) * p.dot(s) + g * g * s.dot(k)) / turning;
+        Ok(Moment { arm: rocker.arm * g, slope: rocker.slope * (g * g) + rocker.arm * g_slope })
+    }
+
+    /// Rotor and what the rates share with it; an error at the dead points of the forward map too.
+    #[inline(always)]
+    pub(crate) fn place(&self, length: T) -> Result<Placed<T>, Gap<T>> {
+        let rocker = self.rocker.closed(length).map_err(Gap)?;
+        let j = self.pivot_from_pin + rocker.vector;
+        let (square, balance, discriminant) = self.pin_circle(j);
+        if discriminant > T::ZERO {
+            let root = discriminant.sqrt();
+            let k = Vec2::new(balance, -root).complex_mul(j);
+            let v = k.complex_mul(self.unwind);
+            let reciprocal = T::ONE / square;
+            let rotor = Rotor { cos: v.x * reciprocal, sin: v.z * reciprocal };
+            Ok(Placed { rocker, j, square, reciprocal, k, root, rotor })
+        } else {
+            Err(self.gap(square, self.sides[0]))
+        }
+    }
+
+    /// dθ4/dL, rad/m.
+    #[inline(always)]
+    pub(crate) fn transmission(&self, placed: &Placed<T>, length: T) -> T {
+        self.rocker.turned(length) * self.sweep(placed) * placed.reciprocal / (placed.root * placed.rocker.root)
+    }
+
+    /// 2|J − P|²·(K − I) × (J − I): zero where rocker and coupler are in line.
+    #[inline(always)]
+    fn sweep(&self, placed: &Placed<T>) -> T {
+        (placed.k - self.pivot_from_pin.scale(placed.square + placed.square)).cross(placed.rocker.vector)
+    }
+
+    /// [`FourBar::sweep`], or an error where rocker and coupler are in line and the moment arm has no bound.
+    #[inline(always)]
+    fn sweep_checked(&self, placed: &Placed<T>) -> Result<T, Gap<T>> {
+        let sweep = self.sweep(placed);
+        if sweep != T::ZERO { Ok(sweep) } else { Err(Gap(T::ZERO)) }
     }
 
     /// |J − P|², |J − P|² + |H|² − c², and what is under the root.

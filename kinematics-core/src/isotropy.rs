@@ -3,7 +3,7 @@
 //! Hareesha 2015 section IV, Yoshikawa 1985. J is the 2 × N Jacobian `[[T; N]; 2]` with the rows reach and height, its
 //! columns one a joint. [`crate::svd`] says how accurate its singular values are.
 
-use crate::svd::{Gram, Singular};
+use crate::svd::{Gram, SingularValues};
 use crate::{Real, Rotor};
 
 /// Yoshikawa's manipulability √det(JJᵀ) = σ₁σ₂, m²: the area of the velocity ellipse over π. Zero where J is singular.
@@ -26,7 +26,7 @@ pub fn manipulability<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> T {
 /// ```
 #[inline]
 pub fn condition_number<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> Option<T> {
-    let Singular { largest, smallest, .. } = Singular::of(jacobian);
+    let SingularValues { largest, smallest, .. } = SingularValues::of(jacobian);
     if smallest > T::ZERO { Some(largest / smallest) } else { None }
 }
 
@@ -34,7 +34,7 @@ pub fn condition_number<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> Opti
 /// singular and 1 where it is isotropic. One root, one division: 38 instructions for N = 3 on the emulated Cortex-M4F (`cargo hil bench`).
 ///
 /// It is 2/(κ + 1/κ): it orders poses as 1/κ does, 1/κ ≤ distance < 2/κ, and has neither unit nor scale. The distance to the
-/// nearest singular Jacobian in metres is [`Singular::smallest`], for two roots more.
+/// nearest singular Jacobian in metres is [`SingularValues::smallest`], for two roots more.
 ///
 /// ```
 /// # use kinematics_core::isotropy::singularity_distance;
@@ -67,7 +67,7 @@ pub struct Ellipse<T> {
 /// ```
 #[inline]
 pub fn velocity_ellipse<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> Ellipse<T> {
-    let Singular { largest, smallest, direction } = Singular::of(jacobian);
+    let SingularValues { largest, smallest, direction } = SingularValues::of(jacobian);
     Ellipse { major: largest, minor: smallest, direction }
 }
 
@@ -82,7 +82,7 @@ pub fn velocity_ellipse<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> Elli
 /// ```
 #[inline]
 pub fn force_ellipse<T: Real, const N: usize>(jacobian: &[[T; N]; 2]) -> Option<Ellipse<T>> {
-    let singular = Singular::of(jacobian);
+    let singular = SingularValues::of(jacobian);
     if singular.smallest > T::ZERO {
         let (major, minor) = (T::ONE / singular.smallest, T::ONE / singular.largest);
         Some(Ellipse { major, minor, direction: singular.across() })

@@ -14,9 +14,11 @@
 //! 2. [`triangle`] and [`four_bar`] — cylinder ↔ joint;
 //! 3. [`chain`] — joints ↔ tip and wrist;
 //! 4. [`machine`] — all of it together: [`Machine::cylinders_to_tip`], [`Machine::tip_to_cylinders`];
-//! 5. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
-//! 6. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them);
-//! 7. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]).
+//! 5. [`rates`], [`jacobian`], [`cylinder_jacobian`], [`swing_jacobian`] — how fast: cylinders ↔ joints ↔ tip, and how they
+//!    accelerate; [`forces`] and [`payload`] — how strong: cylinders ↔ joints ↔ tip, and what the bucket carries;
+//! 6. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
+//! 7. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them);
+//! 8. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]).
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
@@ -36,24 +38,31 @@
 
 pub mod chain;
 pub mod chain_n;
+pub mod cylinder_jacobian;
 pub mod distances;
 mod error;
+pub mod forces;
 pub mod four_bar;
 pub mod geometry;
 pub mod isotropic_configurations;
 pub mod isotropy;
+pub mod jacobian;
 pub mod joint_range;
 pub mod machine;
 pub mod matrix;
+pub mod payload;
+pub mod rates;
 mod real;
 pub mod redundancy;
 mod rotor;
 mod sector;
+mod singular;
 mod sqrt;
 mod stroke;
 pub mod svd;
 pub mod svd3;
 pub mod swing;
+pub mod swing_jacobian;
 pub mod triangle;
 mod validate;
 pub mod world;
@@ -64,4 +73,5 @@ pub use geometry::{GeometryError, PinGeometry};
 pub use machine::{Cylinders, Machine, Pose};
 pub use real::{Real, Split};
 pub use rotor::{Rotor, Vec2};
+pub use singular::Singular;
 pub use stroke::STROKE_TOLERANCE_M;

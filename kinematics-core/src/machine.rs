@@ -46,21 +46,21 @@ impl<T: Real> Pose<T> {
 /// All maps of one machine, their constants computed once in f64.
 #[derive(Clone, Copy, Debug)]
 pub struct Machine<T> {
-    boom: Triangle<T>,
-    arm: Triangle<T>,
-    bucket: FourBar<T>,
-    chain: Chain<T>,
+    pub(crate) boom: Triangle<T>,
+    pub(crate) arm: Triangle<T>,
+    pub(crate) bucket: FourBar<T>,
+    pub(crate) chain: Chain<T>,
     strokes: [StrokeCheck<T>; 3],
     /// Joint angles of boom, arm, bucket over their strokes, tolerance included.
     sectors: [Sector<T>; 3],
     swing: Option<SwingCylinder<T>>,
 }
 
-fn open<T>(cylinder: Cylinder) -> impl Fn(T) -> PoseError<T> {
+pub(crate) fn open<T>(cylinder: Cylinder) -> impl Fn(T) -> PoseError<T> {
     move |by| PoseError::NoAssembly { cylinder, by }
 }
 
-fn bucket_open<T>(gap: Gap<T>) -> PoseError<T> {
+pub(crate) fn bucket_open<T>(gap: Gap<T>) -> PoseError<T> {
     PoseError::NoAssembly { cylinder: Cylinder::Bucket, by: gap.0 }
 }
 

@@ -82,7 +82,7 @@ impl<T: Real> Gram<T> {
 
     /// Singular values of J and the plane's directions that belong to them.
     #[inline]
-    pub fn singular(&self) -> Singular<T> {
+    pub fn singular(&self) -> SingularValues<T> {
         let gap = self.half_gap();
         let largest = (self.mean + gap).sqrt();
         let smallest = if largest > T::ZERO { self.det.sqrt() / largest } else { T::ZERO };
@@ -93,22 +93,22 @@ impl<T: Real> Gram<T> {
             if self.stretch >= T::ZERO { (gap + self.stretch, self.shear) } else { (self.shear, gap - self.stretch) };
         let norm = (x * x + z * z).sqrt();
         let direction = if norm > T::ZERO { Rotor { cos: x / norm, sin: z / norm } } else { Rotor::IDENTITY };
-        Singular { largest, smallest, direction }
+        SingularValues { largest, smallest, direction }
     }
 }
 
 /// The singular values of a 2 × N Jacobian with its left singular vectors.
 ///
 /// ```
-/// use kinematics_core::svd::Singular;
+/// use kinematics_core::svd::SingularValues;
 /// // Joint rates move the tip three times as far along (3, 4)/5 as across it.
-/// let found = Singular::of(&[[1.8f64, -0.8], [2.4, 0.6]]);
+/// let found = SingularValues::of(&[[1.8f64, -0.8], [2.4, 0.6]]);
 /// assert!((found.largest - 3.0).abs() < 1e-15 && (found.smallest - 1.0).abs() < 1e-15);
 /// assert!((found.direction.cos - 0.6).abs() < 1e-15 && (found.direction.sin - 0.8).abs() < 1e-15);
 /// assert!((found.across().cos + 0.8).abs() < 1e-15 && (found.across().sin - 0.6).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Singular<T> {
+pub struct SingularValues<T> {
     /// σ₁, m.
     pub largest: T,
     /// σ₂, m: the distance (in the 2-norm and in Frobenius's) to the nearest singular Jacobian (Eckart and Young).
@@ -118,14 +118,14 @@ pub struct Singular<T> {
     pub direction: Rotor<T>,
 }
 
-impl<T: Real> Singular<T> {
+impl<T: Real> SingularValues<T> {
     /// Singular values and directions of `jacobian`.
     #[inline]
     pub fn of<const N: usize>(jacobian: &[[T; N]; 2]) -> Self {
         Gram::of(jacobian).singular()
     }
 
-    /// u₂, a quarter turn ahead of [`Singular::direction`].
+    /// u₂, a quarter turn ahead of [`SingularValues::direction`].
     #[inline(always)]
     pub fn across(&self) -> Rotor<T> {
         Rotor { cos: -self.direction.sin, sin: self.direction.cos }
@@ -135,9 +135,9 @@ impl<T: Real> Singular<T> {
     /// singular Jacobian, where v₂ is any rate that does not move the tip.
     ///
     /// ```
-    /// use kinematics_core::svd::Singular;
+    /// use kinematics_core::svd::SingularValues;
     /// let jacobian = [[1.8f64, -0.8], [2.4, 0.6]];
-    /// let [first, second] = Singular::of(&jacobian).joint_directions(&jacobian).unwrap();
+    /// let [first, second] = SingularValues::of(&jacobian).joint_directions(&jacobian).unwrap();
     /// assert!((first[0] - 1.0).abs() < 1e-15 && (second[1] - 1.0).abs() < 1e-15);
     /// ```
     #[inline]

@@ -30,6 +30,34 @@ impl<T: Real> SwingCylinder<T> {
         self.triangle.rotor(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
     }
 
+    /// Cylinder length (m) → moment arm dL/dθ1 (m/rad).
+    ///
+    /// ```
+    /// use kinematics_core::geometry::{PinGeometry, Stroke, SwingPins};
+    /// use kinematics_core::{Machine, Vec2};
+    /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+    /// let swing = SwingPins {
+    ///     base: Vec2::new(0.0, -1.0),
+    ///     rod: Vec2::new(0.5, 0.0),
+    ///     stroke: Stroke { min_m: 0.8, max_m: 1.4 },
+    /// };
+    /// let machine = Machine::<f64>::new(&PinGeometry { swing: Some(swing), ..PinGeometry::EXACT_MINI })?;
+    /// let cylinder = machine.swing_cylinder().ok_or("no swing cylinder")?;
+    /// // Straight ahead the rod eye is 0.5 m from the axis and the cylinder slants.
+    /// let length = 1.25f64.sqrt();
+    /// assert!((cylinder.moment_arm(length)? - 0.5 / length).abs() < 1e-15);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`SwingCylinder::rotor`].
+    #[inline]
+    pub fn moment_arm(&self, length: T) -> Result<T, PoseError<T>> {
+        self.stroke.check(Cylinder::Swing, length)?;
+        self.triangle.moment_arm(length).map_err(|by| PoseError::NoAssembly { cylinder: Cylinder::Swing, by })
+    }
+
     /// Rotor of θ1 → cylinder length (m).
     ///
     /// # Errors

@@ -5,6 +5,22 @@
 //! Koivo 1994 (10)–(13), Frankel 2003 (7), (9) without an angle. u and v are products of sums, so the relative accuracy
 //! survives near the dead points (α = 0, π), where `√(1 − cos²)` loses it; the constant sums are stored as
 //! hi + lo, for the same reason.
+//!
+//! ```
+//! use kinematics_core::triangle::{Side, Triangle};
+//! use kinematics_core::Vec2;
+//! // Two sides of 1 m, the cylinder across the right angle between them.
+//! let triangle = Triangle::<f64>::new(Vec2::new(1.0, 0.0), Vec2::new(1.0, 0.0), Side::CounterClockwise, 1.0);
+//! let length = 2.0f64.sqrt();
+//! let joint = triangle.rotor(length).unwrap();
+//! assert!(joint.cos.abs() < 1e-15 && (joint.sin - 1.0).abs() < 1e-15);
+//! assert!((triangle.length(joint).unwrap() - length).abs() < 1e-15);
+//! // It pulls at 0.71 m from the pin, of the length as of the joint; d²L/dθ² = −(dL/dθ)²/L here.
+//! let arm = triangle.moment_arm(length).unwrap();
+//! assert!((arm - 0.5f64.sqrt()).abs() < 1e-15);
+//! assert!((triangle.moment_arm_at(joint).unwrap() - arm).abs() < 1e-15);
+//! assert!((triangle.moment(length).unwrap().slope + arm * arm / length).abs() < 1e-15);
+//! ```
 
 use crate::{Real, Rotor, Split, Vec2};
 
@@ -27,9 +43,35 @@ pub struct Triangle<T> {
     /// The joint's vector is (u − v)·straight + √(uv)·across, times the length given to [`Triangle::new`].
     straight: Vec2<T>,
     across: Vec2<T>,
+    /// 2σ, σ = +1 where the joint turns counter-clockwise as the cylinder extends, else −1.
+    turn: T,
     /// a² + b², and −2ab times the constant rotor's parts: L² = squares + cos θ·back.x + sin θ·back.z
     squares: T,
     back: Vec2<T>,
+}
+
+/// A triangle that closes away from its dead points: the joint's vector, and √(uv) = 2ab·sin α > 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Closed<T> {
+    pub(crate) vector: Vec2<T>,
+    pub(crate) root: T,
+}
+
+impl<T: Real> Closed<T> {
+    /// The vector as a rotor, for a scale of one.
+    #[inline(always)]
+    pub(crate) fn rotor(&self) -> Rotor<T> {
+        Rotor { cos: self.vector.x, sin: self.vector.z }
+    }
+}
+
+/// dL/dθ and d²L/dθ² of one cylinder and its joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment<T> {
+    /// dL/dθ, m/rad: positive where the joint turns counter-clockwise as the cylinder extends.
+    pub arm: T,
+    /// d²L/dθ², m/rad².
+    pub slope: T,
 }
 
 /// Forward and inverse constants of one triangle in f64, before they are rounded.
@@ -68,6 +110,7 @@ impl<T: Real> Triangle<T> {
             difference: T::split(if a > b { a - b } else { b - a }),
             straight: round(straight),
             across: round(across),
+            turn: T::from_f64(2.0 * sigma),
             squares: T::from_f64(a * a + b * b),
             back: round(back),
         }
@@ -110,6 +153,56 @@ impl<T: Real> Triangle<T> {
     #[inline(always)]
     pub fn length_unchecked(&self, rotor: Rotor<T>) -> T {
         (self.squares + (rotor.cos * self.back.x + rotor.sin * self.back.z)).sqrt()
+    }
+
+    /// Cylinder length (m) → moment arm dL/dθ = σ·ab·sin α/L = √(uv)/2σL (m/rad), to a few roundings of its own size up
+    /// to the dead points, where it is zero: Koivo 1994 (32), (33). Or by how much the triangle fails to close (m).
+    #[inline(always)]
+    pub fn moment_arm(&self, length: T) -> Result<T, T> {
+        let (u, v) = self.products(length);
+        let product = u * v;
+        if product >= T::ZERO && length > T::ZERO {
+            Ok(product.sqrt() / (self.turn * length))
+        } else {
+            Err(self.gap(length))
+        }
+    }
+
+    /// Rotor → moment arm dL/dθ = (cos θ·back.z − sin θ·back.x)/2L (m/rad), for a scale of one: Koivo 1994 (32), (33).
+    ///
+    /// For a joint that is given, not measured: near a dead point it keeps the rotor's accuracy, which a rounded length
+    /// would lose. Its error is absolute, a rounding of ab/L. The error value is that of [`Triangle::length`].
+    #[inline(always)]
+    pub fn moment_arm_at(&self, rotor: Rotor<T>) -> Result<T, T> {
+        let length = self.length(rotor)?;
+        Ok(rotor.to_vec().cross(self.back) / (length + length))
+    }
+
+    /// Cylinder length (m) → moment arm and its slope d²L/dθ² = ((u − v)/4 − (dL/dθ)²)/L.
+    #[inline(always)]
+    pub fn moment(&self, length: T) -> Result<Moment<T>, T> {
+        let arm = self.moment_arm(length)?;
+        let (u, v) = self.products(length);
+        Ok(Moment { arm, slope: ((u - v) * T::from_f64(0.25) - arm * arm) / length })
+    }
+
+    /// [`Triangle::vector`] with what its transmission needs; an error at the dead points themselves too.
+    #[inline(always)]
+    pub(crate) fn closed(&self, length: T) -> Result<Closed<T>, T> {
+        let (u, v) = self.products(length);
+        let product = u * v;
+        if product > T::ZERO {
+            let root = product.sqrt();
+            Ok(Closed { vector: self.straight.scale(u - v) + self.across.scale(root), root })
+        } else {
+            Err(self.gap(length))
+        }
+    }
+
+    /// 2σL: the moment arm is √(uv) over this, the transmission dθ/dL this over √(uv).
+    #[inline(always)]
+    pub(crate) fn turned(&self, length: T) -> T {
+        self.turn * length
     }
 
     /// ab·|sin α|/L

@@ -3,12 +3,14 @@
 //! - [`machines`]: the four reference machines' pins as numbers;
 //! - [`golden`]: the golden values, read from `tests/data`;
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
+//! - [`differences`]: derivatives of the oracle by central differences;
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
 //! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
+pub mod differences;
 pub mod golden;
 pub mod jacobians;
 pub mod machines;

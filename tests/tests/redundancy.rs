@@ -9,7 +9,7 @@ use kinematics_core::isotropy::condition_number;
 use kinematics_core::redundancy::{
     Redundancy, RedundancyError, RedundancyParameters, damped_rates, null_motion, null_projector, pseudo_inverse,
 };
-use kinematics_core::svd::Singular;
+use kinematics_core::svd::SingularValues;
 use kinematics_core::{Joints, Machine, Real, Rotor, Vec2};
 
 type Jacobian<T, const N: usize> = [[T; N]; 2];
@@ -117,7 +117,7 @@ fn pseudo_inverse_properties<T: Real, const N: usize>(stream: &mut Random, withi
             assert!((row(row_of_j, column) - unit).abs() < within, "JJ⁺ is off the identity");
         }
     }
-    let size = Singular::of(&j).largest.to_f64();
+    let size = SingularValues::of(&j).largest.to_f64();
     let mut trace = 0.0;
     for i in 0..N {
         trace += projector[i][i].to_f64();
@@ -220,7 +220,7 @@ fn damping_bounds<T: Real, const N: usize>(stream: &mut Random, within: f64) {
     for row in &mut weighted {
         row.iter_mut().zip(&mobility).for_each(|(entry, m)| *entry = *entry * m.sqrt());
     }
-    let smallest = Singular::of(&weighted).smallest.to_f64();
+    let smallest = SingularValues::of(&weighted).smallest.to_f64();
     assert!(smallest <= trusted * (1.0 + 1e-3) || rates.damping == T::ZERO, "damped at {smallest} of {trusted} m");
     assert!(smallest >= trusted * (1.0 - 1e-3) || rates.damping > T::ZERO, "undamped at {smallest} of {trusted} m");
     if rates.damping == T::ZERO {

@@ -6,7 +6,7 @@ use cross_tests::sweep::Random;
 use kinematics_core::isotropy::{
     condition_number, force_ellipse, manipulability, singularity_distance, velocity_ellipse,
 };
-use kinematics_core::svd::Singular;
+use kinematics_core::svd::SingularValues;
 use kinematics_core::svd3::{svd3, symmetric_eigen};
 use kinematics_core::{Cylinders, Machine, Real, Rotor};
 
@@ -19,7 +19,7 @@ fn singular_errors<T: Real, const N: usize>(ulp: f64, worst: f64) -> [f64; 2] {
         let condition = worst.powf(random.unit());
         let j = rounded::<T, N>(&with_singular::<N>(&mut random, [scale, scale / condition]));
         let exact = exact_singular(&j);
-        let found = Singular::of(&j);
+        let found = SingularValues::of(&j);
         for (error, (found, expected)) in errors.iter_mut().zip([found.largest, found.smallest].iter().zip(exact)) {
             *error = error.max((found.to_f64() - expected).abs() / (ulp * exact[0]));
         }
@@ -85,7 +85,7 @@ fn ellipses_hold<T: Real, const N: usize>(random: &mut Random, within: f64) {
     let j = rounded::<T, N>(&with_singular::<N>(random, sigma));
     let (fast, strong) = (velocity_ellipse(&j), force_ellipse(&j).unwrap());
     let product = |a: &[T; N], b: &[T; N]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a.to_f64() * b.to_f64());
-    let found = Singular::of(&j);
+    let found = SingularValues::of(&j);
     let [first, second] = found.joint_directions(&j).unwrap();
     // Directions and sizes of the short axis carry the rounding of the long one.
     let within = within * sigma[0] / sigma[1];
@@ -131,7 +131,7 @@ fn a_singular_jacobian_has_no_condition_number_and_no_force_ellipse() {
     for j in [[[0.0f32; 3]; 2], [[3.0, 2.0, 1.0], [0.0; 3]], [[3.0, 2.0, 1.0], [6.0, 4.0, 2.0]]] {
         assert_eq!(condition_number(&j), None);
         assert_eq!(force_ellipse(&j), None);
-        assert_eq!(Singular::of(&j).joint_directions(&j), None);
+        assert_eq!(SingularValues::of(&j).joint_directions(&j), None);
         assert_eq!((singularity_distance(&j), manipulability(&j)), (0.0, 0.0));
         assert!(velocity_ellipse(&j).direction.to_vec().norm() > 0.999);
     }

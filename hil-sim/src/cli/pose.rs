@@ -5,6 +5,7 @@ pub mod description;
 mod failure;
 mod messages;
 mod progress;
+pub mod rates;
 pub mod report;
 pub mod rows;
 pub mod solver;
@@ -76,6 +77,10 @@ pub struct PoseArgs {
     #[arg(long, value_name = "-", num_args = 0..=1, default_missing_value = "-", value_parser = ["-"])]
     json: Option<String>,
 
+    /// Moment arms, Jacobians of joints and cylinders, condition number, velocity and force ellipse too
+    #[arg(long, conflicts_with = "csv")]
+    rates: bool,
+
     /// Outside the stroke too, with `within_stroke` false
     #[arg(long)]
     allow_outside: bool,
@@ -117,7 +122,8 @@ fn run<T: Number>(args: &PoseArgs) -> Result<(), Failure> {
     let machine = MachineFile::load(&args.machine).map_err(|e| Failure::invalid_input(e.to_string()))?;
     let solver = Solver::<T>::new(&machine.geometry)
         .map_err(|e| Failure::invalid_input(format!("{}: {e}", args.machine)))?
-        .allowing_outside(args.allow_outside);
+        .allowing_outside(args.allow_outside)
+        .with_rates(args.rates);
     let swing_deg = args.swing;
     let description = match (args.cylinders, args.joints, args.tip, &args.csv) {
         (Some(lengths), ..) => Description::Cylinders(lengths),

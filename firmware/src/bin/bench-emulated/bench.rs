@@ -6,10 +6,13 @@ use core::hint::black_box;
 use bench::seed::single::Dimensions;
 use cortex_m_rt::entry;
 use kinematics_core::chain_n::PlanarChain;
+use kinematics_core::cylinder_jacobian::CylinderJacobian;
 use kinematics_core::isotropy::singularity_distance;
+use kinematics_core::jacobian::Twist;
 use kinematics_core::joint_range::JointRange;
+use kinematics_core::rates::{CylinderRates, MomentArms};
 use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
-use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Vec2};
+use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::emulated::link::Link;
@@ -30,6 +33,28 @@ fn cylinders_to_tip(
 #[inline(never)]
 fn cylinders_to_tip_unchecked(machine: &Machine<f32>, cylinders: &Cylinders<f32>, swing: Rotor<f32>) -> Pose<f32> {
     machine.cylinders_to_tip_unchecked(cylinders, swing)
+}
+
+#[inline(never)]
+fn cylinders_to_tip_with_jacobian(
+    machine: &Machine<f32>,
+    cylinders: &Cylinders<f32>,
+    swing: Rotor<f32>,
+) -> Result<(Pose<f32>, CylinderJacobian<f32>), PoseError<f32>> {
+    machine.cylinders_to_tip_with_jacobian(cylinders, swing)
+}
+
+#[inline(never)]
+fn moment_arms(machine: &Machine<f32>, cylinders: &Cylinders<f32>) -> Result<MomentArms<f32>, PoseError<f32>> {
+    machine.moment_arms(cylinders)
+}
+
+#[inline(never)]
+fn tip_twist_to_cylinder_rates(
+    jacobian: &CylinderJacobian<f32>,
+    twist: &Twist<f32>,
+) -> Result<CylinderRates<f32>, Singular> {
+    jacobian.cylinder_rates(twist)
 }
 
 #[inline(never)]
@@ -126,6 +151,14 @@ fn main() -> ! {
 
     row(&mut out, s, "cylinders_to_tip", along, |c| cylinders_to_tip(m, c, swing));
     row(&mut out, s, "cylinders_to_tip_unchecked", along, |c| cylinders_to_tip_unchecked(m, c, swing));
+    row(&mut out, s, "cylinders_to_tip_with_jacobian", along, |c| cylinders_to_tip_with_jacobian(m, c, swing));
+    row(&mut out, s, "moment_arms", along, |c| moment_arms(m, c));
+    let jacobian = |t: f32| match m.cylinders_to_tip_with_jacobian(&along(t), swing) {
+        Ok((_, jacobian)) => jacobian,
+        Err(_) => fail(),
+    };
+    let twist = black_box(Twist { reach: -0.5, height: 0.1, pitch: 0.2 });
+    row(&mut out, s, "tip_twist_to_cylinder_rates", jacobian, |j| tip_twist_to_cylinder_rates(j, &twist));
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::Number;
+use super::rates::Rates;
 
 /// One value a moving link.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -42,7 +43,7 @@ pub struct InPlane<T> {
 }
 
 /// Everything `hil pose` says of one pose.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report<T> {
     /// θ1 in (−180, 180] degrees.
     pub swing_deg: T,
@@ -56,6 +57,9 @@ pub struct Report<T> {
     pub tip_from_boom_pin: InPlane<T>,
     /// Whether every cylinder is inside its stroke.
     pub within_stroke: bool,
+    /// Where asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rates: Option<Rates<T>>,
 }
 
 impl<T: Number> Report<T> {
@@ -88,16 +92,7 @@ impl<T: Number> Report<T> {
     /// A short aligned table for people.
     pub fn to_table(&self, machine: &str) -> String {
         let mut table = String::new();
-        let mut line = |title: &str, unit: &str, values: &[(&str, T)]| {
-            let mut row = format!("{title:<14}{unit:<5}");
-            for (name, value) in values {
-                // As text first: padding would otherwise round to a precision of its own.
-                let value = value.to_string();
-                let _ = write!(row, "{name:>8} {value:<21}");
-            }
-            table.push_str(row.trim_end());
-            table.push('\n');
-        };
+        let mut line = |title: &str, unit: &str, values: &[(&str, T)]| table += &line(title, unit, values);
         let (j, c, tip, p) = (&self.joints_deg, &self.cylinders_m, &self.tip, &self.tip_from_boom_pin);
         line("cylinders", "m", &[("boom", c.boom), ("arm", c.arm), ("bucket", c.bucket)]);
         line("joints", "deg", &[("boom", j.boom), ("arm", j.arm), ("bucket", j.bucket)]);
@@ -107,6 +102,19 @@ impl<T: Number> Report<T> {
         line("from boom pin", "m", &[("x", p.x_m), ("z", p.z_m)]);
         line("pitch", "deg", &[("", tip.pitch_deg)]);
         let stroke = if self.within_stroke { "within" } else { "OUTSIDE" };
-        format!("{machine}, {stroke} the stroke\n{table}")
+        let rates = self.rates.as_ref().map(Rates::to_table).unwrap_or_default();
+        format!("{machine}, {stroke} the stroke\n{table}{rates}")
     }
+}
+
+/// One line of the table: title, unit, named values.
+pub(super) fn line<T: Number>(title: &str, unit: &str, values: &[(&str, T)]) -> String {
+    let mut row = format!("{title:<14}{unit:<5}");
+    for (name, value) in values {
+        // As text first: padding would otherwise round to a precision of its own.
+        let value = value.to_string();
+        let _ = write!(row, "{name:>8} {value:<21}");
+    }
+    row.truncate(row.trim_end().len());
+    row + "\n"
 }

@@ -1,11 +1,12 @@
 //! Any description → the whole report, in one number type, every refusal a sentence.
 
 use kinematics_core::geometry::GeometryError;
-use kinematics_core::{Cylinder, Cylinders, Joints, Machine, PinGeometry, PlaneTip, PoseError, Real};
+use kinematics_core::{Cylinder, Cylinders, Joints, Machine, PinGeometry, PlaneTip, PoseError, Real, Rotor};
 
 use super::angle;
 use super::description::{Description, finite};
 use super::messages;
+use super::rates::Rates;
 use super::report::{InPlane, PerLink, Report, Tip};
 use super::{Failure, Kind, Number};
 
@@ -17,6 +18,7 @@ pub struct Solver<T> {
     /// Tells whether a linkage closes: a question about the machine, not about T's rounding.
     exact: Machine<f64>,
     allow_outside: bool,
+    with_rates: bool,
 }
 
 /// What all descriptions come to before they are printed.
@@ -35,6 +37,7 @@ impl<T: Number> Solver<T> {
             machine: Machine::new(geometry)?,
             exact: Machine::new(geometry)?,
             allow_outside: false,
+            with_rates: false,
         })
     }
 
@@ -42,6 +45,12 @@ impl<T: Number> Solver<T> {
     #[must_use]
     pub fn allowing_outside(self, allow_outside: bool) -> Self {
         Self { allow_outside, ..self }
+    }
+
+    /// Whether the report carries rates.
+    #[must_use]
+    pub fn with_rates(self, with_rates: bool) -> Self {
+        Self { with_rates, ..self }
     }
 
     /// The pose a description gives, swung by `swing_deg`. The given numbers are reported as given, rounded to T.
@@ -68,11 +77,33 @@ impl<T: Number> Solver<T> {
             Description::Tip([.., pitch]) => report.tip.pitch_deg = angle::wrapped(pitch),
             Description::Cylinders(_) => {}
         }
+        if self.with_rates {
+            report.rates = Some(self.rates(description, &solved)?);
+        }
         if report.numbers().into_iter().all(|x| x.to_f64().is_finite()) {
             Ok(report)
         } else {
             Err(Failure::invalid_input("the machine's lengths are too large for this precision".into()))
         }
+    }
+
+    /// From the lengths where these are given, else from the joints: each the accurate way next to a dead point.
+    fn rates(&self, description: &Description, solved: &Solved<T>) -> Result<Rates<T>, Failure> {
+        let arms = match description {
+            Description::Cylinders(_) => self
+                .machine
+                .moment_arms(&solved.cylinders)
+                .map_err(|e| self.explain_cylinders(&e, &solved.cylinders))?,
+            Description::Joints(_) | Description::Tip(_) => {
+                let exact = |r: Rotor<T>| Rotor { cos: r.cos.to_f64(), sin: r.sin.to_f64() };
+                let Joints { boom, arm, bucket } = solved.joints;
+                self.machine.moment_arms_at(&solved.joints).map_err(|e| {
+                    let joints = Joints { boom: exact(boom), arm: exact(arm), bucket: exact(bucket) };
+                    self.explain_joints(&e, &joints)
+                })?
+            }
+        };
+        Ok(Rates::new(&arms, &self.machine.chain().jacobian(&solved.joints)))
     }
 
     fn solve_cylinders(&self, [boom, arm, bucket]: [f64; 3]) -> Result<Solved<T>, Failure> {
@@ -166,6 +197,7 @@ impl<T: Number> Solver<T> {
             },
             tip_from_boom_pin: InPlane { x_m: plain(plane.reach - a1), z_m: plain(plane.height) },
             within_stroke,
+            rates: None,
         }
     }
 }

@@ -1,0 +1,143 @@
+//! Cylinder rates ↔ tip twist in one step, which is what a valve loop needs; and pose and Jacobian by one kernel.
+
+use crate::chain::PlaneTip;
+use crate::forces::{CylinderForces, Wrench};
+use crate::jacobian::{PlanarJacobian, Twist};
+use crate::machine::{bucket_open, open};
+use crate::rates::{CylinderRates, MomentArms};
+use crate::{Cylinder, Cylinders, Joints, Machine, Pose, PoseError, Real, Rotor, Singular, Vec2};
+
+/// The Jacobian from cylinder lengths to the tip in the plane: rows by columns boom, arm, bucket cylinder.
+///
+/// ```
+/// use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
+/// use kinematics_core::jacobian::Twist;
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let machine = Machine::<f32>::new(&PinGeometry::EXACT_MINI)?;
+/// let cylinders = Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 };
+/// let (pose, jacobian) = machine.cylinders_to_tip_with_jacobian(&cylinders, Rotor::IDENTITY)?;
+/// // Draw the tip inwards at 0.5 m/s, level and without turning the bucket.
+/// let wanted = Twist { reach: -0.5, height: 0.0, pitch: 0.0 };
+/// let rates = jacobian.cylinder_rates(&wanted)?;
+/// let got = jacobian.twist(&rates);
+/// assert!((got.reach + 0.5).abs() < 1e-6 && got.height.abs() < 1e-6 && got.pitch.abs() < 1e-6);
+/// // The same from joint space.
+/// let joint_space = machine.chain().jacobian(&pose.joints);
+/// let again = joint_space.per_cylinder(&machine.moment_arms(&cylinders)?)?;
+/// assert!((again.reach[0] - jacobian.reach[0]).abs() < 1e-5);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CylinderJacobian<T> {
+    /// d(reach)/dL, m/m.
+    pub reach: [T; 3],
+    /// d(height)/dL, m/m.
+    pub height: [T; 3],
+    /// dφ/dL, rad/m: each joint's transmission dθ/dL.
+    pub pitch: [T; 3],
+}
+
+impl<T: Real> CylinderJacobian<T> {
+    #[inline(always)]
+    fn new(levers: [Vec2<T>; 3], transmissions: [T; 3]) -> Self {
+        let [boom, arm, bucket] = levers;
+        let [b, a, k] = transmissions;
+        Self {
+            reach: [-(boom.z * b), -(arm.z * a), -(bucket.z * k)],
+            height: [boom.x * b, arm.x * a, bucket.x * k],
+            pitch: transmissions,
+        }
+    }
+
+    /// Cylinder rates → twist of the tip.
+    #[inline(always)]
+    pub fn twist(&self, cylinders: &CylinderRates<T>) -> Twist<T> {
+        let row =
+            |[boom, arm, bucket]: [T; 3]| boom * cylinders.boom + (arm * cylinders.arm + bucket * cylinders.bucket);
+        Twist { reach: row(self.reach), height: row(self.height), pitch: row(self.pitch) }
+    }
+
+    /// Twist of the tip → cylinder rates.
+    ///
+    /// # Errors
+    /// [`Singular::ArmStretched`].
+    #[inline]
+    pub fn cylinder_rates(&self, twist: &Twist<T>) -> Result<CylinderRates<T>, Singular> {
+        let (arms, jacobian) = self.factors();
+        Ok(arms.cylinder_rates(&jacobian.joint_rates(twist)?))
+    }
+
+    /// The force the tip exerts → the cylinders' forces that hold it: f = Jᵀ·F, N. No pose is singular this way.
+    #[inline(always)]
+    pub fn cylinder_forces(&self, tip: &Wrench<T>) -> CylinderForces<T> {
+        let column = |reach: T, height: T, pitch: T| reach * tip.reach + (height * tip.height + pitch * tip.moment);
+        let ([rb, ra, rk], [hb, ha, hk], [pb, pa, pk]) = (self.reach, self.height, self.pitch);
+        CylinderForces { boom: column(rb, hb, pb), arm: column(ra, ha, pa), bucket: column(rk, hk, pk) }
+    }
+
+    /// The cylinders' forces → the force and moment the tip exerts.
+    ///
+    /// # Errors
+    /// [`Singular::ArmStretched`].
+    #[inline]
+    pub fn wrench(&self, cylinders: &CylinderForces<T>) -> Result<Wrench<T>, Singular> {
+        let (arms, jacobian) = self.factors();
+        jacobian.wrench(&arms.joint_torques(cylinders))
+    }
+
+    /// Moment arms, and the joint-space Jacobian without them.
+    #[inline(always)]
+    fn factors(&self) -> (MomentArms<T>, PlanarJacobian<T>) {
+        let [boom, arm, bucket] = self.pitch.map(|transmission| T::ONE / transmission);
+        let ([rb, ra, rk], [hb, ha, hk]) = (self.reach, self.height);
+        let lever = |reach: T, height: T, by: T| Vec2::new(height * by, -(reach * by));
+        let levers = [lever(rb, hb, boom), lever(ra, ha, arm), lever(rk, hk, bucket)];
+        (MomentArms { boom, arm, bucket }, PlanarJacobian::from_levers(levers))
+    }
+}
+
+impl<T: Real> PlanarJacobian<T> {
+    /// This Jacobian per cylinder length in place of joint angle: each column divided by its moment arm.
+    ///
+    /// # Errors
+    /// [`Singular::DeadPoint`].
+    #[inline(always)]
+    pub fn per_cylinder(&self, arms: &MomentArms<T>) -> Result<CylinderJacobian<T>, Singular> {
+        Ok(CylinderJacobian::new(self.levers(), arms.transmissions()?))
+    }
+}
+
+impl<T: Real> Machine<T> {
+    /// Cylinders and swing → the pose of [`Machine::cylinders_to_tip`] and the cylinder-space Jacobian, their work shared.
+    ///
+    /// # Errors
+    /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
+    #[inline(always)]
+    pub fn cylinders_to_tip_with_jacobian(
+        &self,
+        cylinders: &Cylinders<T>,
+        swing: Rotor<T>,
+    ) -> Result<(Pose<T>, CylinderJacobian<T>), PoseError<T>> {
+        self.check_strokes(cylinders)?;
+        let boom = self.boom.closed(cylinders.boom).map_err(open(Cylinder::Boom))?;
+        let arm = self.arm.closed(cylinders.arm).map_err(open(Cylinder::Arm))?;
+        let bucket = self.bucket.place(cylinders.bucket).map_err(bucket_open)?;
+        let joints = Joints { boom: boom.rotor(), arm: arm.rotor(), bucket: bucket.rotor };
+        let transmissions = [
+            self.boom.turned(cylinders.boom) / boom.root,
+            self.arm.turned(cylinders.arm) / arm.root,
+            self.bucket.transmission(&bucket, cylinders.bucket),
+        ];
+        // The sums of `Chain::tip`, in its order: the pose has the same bits.
+        let [a1, a2, a3, a4] = self.chain.lengths();
+        let forearm = joints.boom * joints.arm;
+        let pitch = forearm * joints.bucket;
+        let bucket_lever = Vec2::new(a4 * pitch.cos, a4 * pitch.sin);
+        let arm_lever = Vec2::new(a3 * forearm.cos, a3 * forearm.sin) + bucket_lever;
+        let boom_lever = Vec2::new(a2 * joints.boom.cos, a2 * joints.boom.sin) + arm_lever;
+        let plane = PlaneTip { reach: a1 + boom_lever.x, height: boom_lever.z, pitch };
+        let pose = Pose { swing, joints, plane, x: plane.reach * swing.cos, y: plane.reach * swing.sin };
+        Ok((pose, CylinderJacobian::new([boom_lever, arm_lever, bucket_lever], transmissions)))
+    }
+}
