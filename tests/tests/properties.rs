@@ -82,7 +82,8 @@ proptest! {
 
     #[test]
     fn joints_to_tip_to_joints_comes_back((g, at) in poses()) {
-        joints_come_back::<f64>(&g, at, 1e-14);
+        // Near the stretched arm a rounding of the tip turns the joints by its root.
+        joints_come_back::<f64>(&g, at, 3e-14);
         joints_come_back::<f32>(&g, at, 6e-6);
     }
 

@@ -11,6 +11,7 @@ mod csv;
 mod dig;
 mod figures;
 mod html;
+mod machine;
 mod run;
 mod series;
 mod table;
@@ -18,6 +19,7 @@ mod table;
 mod tests;
 
 pub use dig::draw_only;
+pub use machine::write_machine;
 pub use run::write;
 pub use table::table;
 
