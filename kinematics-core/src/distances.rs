@@ -5,6 +5,56 @@ use crate::validate::positive;
 use crate::{Rotor, Vec2};
 
 /// Frankel 2003's measured centre-to-centre distances, under the names of `dimensions.m`, in metres.
+/// ```
+/// use kinematics_core::distances::FrankelDistances;
+/// use kinematics_core::geometry::Stroke;
+/// use kinematics_core::{Machine, Vec2};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let inches = |x: f64| x * 0.0254;
+/// let stroke = |min, max| Stroke { min_m: inches(min), max_m: inches(max) };
+/// let distances = FrankelDistances {
+///     r01_m: inches(8.5),
+///     r0n_m: inches(10.5),
+///     ran_m: inches(7.5),
+///     rjm_m: inches(10.0),
+///     r0m_m: inches(6.0),
+///     r0k_m: inches(5.5),
+///     r1c_m: inches(17.5),
+///     r12_m: inches(48.0),
+///     r2c_m: inches(36.25),
+///     r1b_m: inches(36.0),
+///     r2b_m: inches(12.35),
+///     r2d_m: inches(9.1875),
+///     rde_m: inches(13.0),
+///     r23_m: inches(38.5),
+///     r3d_m: inches(47.25),
+///     ref_m: inches(30.77),
+///     r3f_m: inches(4.5),
+///     r34_m: inches(18.5),
+///     r3g_m: inches(5.5),
+///     r4g_m: inches(20.01),
+///     rfh_m: inches(9.5),
+///     rgh_m: inches(9.5),
+///     swing: stroke(7.5, 16.6208),
+///     boom: stroke(29.0, 46.5434),
+///     arm: stroke(27.699, 41.9298),
+///     bucket: stroke(22.0242, 38.6144),
+/// };
+/// let pins = distances.to_pins()?;
+/// let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+/// // A stands 1 inch behind the boom pin. Pin to pin, the distances are there again: R2B, R1C, RDE and R4G.
+/// assert!(near(pins.boom.base.x, -inches(1.0)));
+/// assert!(near((Vec2::new(pins.boom_m, 0.0) - pins.boom.rod).norm(), inches(12.35)));
+/// assert!(near(pins.arm.base.norm(), inches(17.5)));
+/// assert!(near((pins.arm.rod - pins.bucket.base).norm(), inches(13.0)));
+/// assert!(near((Vec2::new(pins.bucket_m, 0.0) - pins.bucket.coupler_pin).norm(), inches(20.01)));
+/// assert!(Machine::<f32>::new(&pins)?.swing_cylinder().is_some());
+/// // 36 and 11 inches do not reach over the 48 of the boom.
+/// let short = FrankelDistances { r2b_m: inches(11.0), ..distances };
+/// assert_eq!(short.to_pins().map_err(|e| e.field), Err("distances.r2b_m"));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // The paper's figure labels: r2c is R2C, pins 2 and C.
 pub struct FrankelDistances {
