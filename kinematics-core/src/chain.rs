@@ -40,6 +40,7 @@ pub struct PlaneTip<T> {
 const NEAREST_WRIST_M: f64 = 1e-6;
 
 /// The link lengths a1…a4 and what follows from them.
+///
 /// ```
 /// use kinematics_core::chain::Chain;
 /// use kinematics_core::{Joints, PlaneTip, Rotor, Vec2};
@@ -186,6 +187,7 @@ impl<T: Real> Chain<T> {
 
 /// Bucket pitch from the digging angle θ_dg between the bucket's bottom plane and the horizontal, and θ_b between that
 /// plane and the bucket line: Koivo 1994 (28), θ4 = θ_b + θ_dg − θ2 − θ3, that is φ = θ_b + θ_dg.
+///
 /// ```
 /// use kinematics_core::Rotor;
 /// use kinematics_core::chain::{digging_angle, pitch_from_digging_angle};

@@ -34,6 +34,7 @@ impl fmt::Display for Cylinder {
 }
 
 /// Why a map has no answer for an input. Nothing is ever clamped.
+///
 /// ```
 /// use kinematics_core::{Cylinder, PoseError};
 /// assert_eq!(Cylinder::Arm.name(), "arm");

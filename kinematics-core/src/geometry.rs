@@ -78,6 +78,7 @@ impl BoomCylinder {
 
 /// Everything the maps need of a machine. Frames sit at each link's own pin, x along the link, z up (DH frames of
 /// Koivo 1994 Table 1).
+///
 /// ```
 /// use kinematics_core::PinGeometry;
 /// let mut geometry = PinGeometry::EXACT_MINI;

@@ -44,6 +44,7 @@ impl<T: Real> Pose<T> {
 }
 
 /// All maps of one machine, their constants computed once in f64.
+///
 /// ```
 /// use kinematics_core::{Cylinder, Cylinders, Machine, PinGeometry, PoseError, Rotor};
 /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
@@ -71,6 +72,7 @@ impl<T: Real> Pose<T> {
 /// let pose = machine.cylinders_to_tip(&shortest, left)?;
 /// assert_eq!((pose.x, pose.y, pose.z()), (0.0, pose.plane.reach, pose.plane.height));
 /// assert_eq!(machine.joints_to_tip(&joints, left), pose);
+/// assert_eq!(machine.chain().tip(&joints), pose.plane);
 /// assert!((machine.tip_to_joints(&pose.plane)?.arm.sin - joints.arm.sin).abs() < 1e-14);
 /// // Without checks: the same numbers, and no word of what is out of reach.
 /// assert_eq!(machine.cylinders_to_tip_unchecked(&shortest, left), pose);

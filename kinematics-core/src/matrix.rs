@@ -1,4 +1,5 @@
 //! Homogeneous matrices for those who want them: Koivo 1994 (2), (3), (9), Frankel 2003 `Jdisp`. Row-major; the ECU uses none.
+//!
 //! ```
 //! use kinematics_core::matrix::{denavit_hartenberg, product};
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};

@@ -6,6 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::sqrt::{sqrt_f32, sqrt_f64};
 
 /// What the maps need of a number: `+ − × ÷ √` and comparison. No trigonometry, no fused multiply-add.
+///
 /// ```
 /// use kinematics_core::Real;
 /// fn hypotenuse<T: Real>(a: T, b: T) -> T {
@@ -68,6 +69,7 @@ pub trait Real:
 }
 
 /// A constant as the unevaluated sum hi + lo, so that adding a measured length to it rounds once, not twice.
+///
 /// ```
 /// use kinematics_core::Real;
 /// let constant = f32::split(2.163);

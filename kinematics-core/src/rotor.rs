@@ -5,6 +5,7 @@ use core::ops::{Add, Mul, Sub};
 use crate::Real;
 
 /// A vector in a plane frame: x along the frame's first axis, z along its second. Metres.
+///
 /// ```
 /// use kinematics_core::Vec2;
 /// let v = Vec2::new(3.0, 4.0);
@@ -104,6 +105,7 @@ impl<T: Real> Sub for Vec2<T> {
 }
 
 /// A rotation as the unit complex number (cos θ, sin θ).
+///
 /// ```
 /// use core::f64::consts::FRAC_PI_6;
 /// use kinematics_core::{Rotor, Vec2};

@@ -6,6 +6,7 @@ use crate::triangle::{Side, Triangle};
 use crate::{Cylinder, PlaneTip, PoseError, Real, Rotor};
 
 /// The swing cylinder's triangle, seen from above: Frankel 2003 (1)–(4).
+///
 /// ```
 /// use kinematics_core::geometry::{PinGeometry, Stroke, SwingPins};
 /// use kinematics_core::{Machine, Rotor, Vec2};
@@ -98,6 +99,7 @@ impl<T: Real> SwingCylinder<T> {
 ///
 /// # Errors
 /// [`PoseError::Unreachable`] for a point on the swing axis, where the swing is undefined.
+///
 /// ```
 /// use kinematics_core::Rotor;
 /// use kinematics_core::swing::plane_through;

@@ -3,6 +3,7 @@
 use crate::{Real, Rotor};
 
 /// Where the base frame stands in the world: first roll about x, then pitch about y, then heading about z.
+///
 /// ```
 /// use kinematics_core::Rotor;
 /// use kinematics_core::world::BasePlacement;
