@@ -40,6 +40,26 @@ pub struct PlaneTip<T> {
 const NEAREST_WRIST_M: f64 = 1e-6;
 
 /// The link lengths a1…a4 and what follows from them.
+///
+/// ```
+/// use kinematics_core::chain::Chain;
+/// use kinematics_core::{Joints, PlaneTip, Rotor, Vec2};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// // The boom straight up, the arm level, the bucket straight down.
+/// let chain = Chain::<f64>::new([0.5, 2.0, 1.0, 0.5]);
+/// assert_eq!(chain.lengths()[1], 2.0);
+/// let quarter = Rotor::from_turns(0.25);
+/// let joints = Joints { boom: quarter, arm: quarter.inverse(), bucket: quarter.inverse() };
+/// let tip = chain.tip(&joints);
+/// assert_eq!(tip, PlaneTip { reach: 1.5, height: 1.5, pitch: joints.pitch() });
+/// assert_eq!(chain.wrist(&joints), Vec2::new(1.5, 2.0));
+/// // And back, from the tip or from the bucket's pin.
+/// for back in [chain.joints(&tip)?, chain.joints_from_wrist(Vec2::new(1.5, 2.0), tip.pitch)?] {
+///     assert!((back.boom.sin - 1.0).abs() < 1e-15 && (back.arm.sin + 1.0).abs() < 1e-15);
+/// }
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<T> {
     a1: T,
@@ -167,6 +187,16 @@ impl<T: Real> Chain<T> {
 
 /// Bucket pitch from the digging angle θ_dg between the bucket's bottom plane and the horizontal, and θ_b between that
 /// plane and the bucket line: Koivo 1994 (28), θ4 = θ_b + θ_dg − θ2 − θ3, that is φ = θ_b + θ_dg.
+///
+/// ```
+/// use kinematics_core::Rotor;
+/// use kinematics_core::chain::{digging_angle, pitch_from_digging_angle};
+/// // The bottom plane 30° from the bucket line, digging 20° below the horizontal.
+/// let bottom = Rotor::<f64>::from_degrees(30.0);
+/// let pitch = pitch_from_digging_angle(bottom, Rotor::from_degrees(-20.0));
+/// assert!((pitch.angle().to_degrees() - 10.0).abs() < 1e-13);
+/// assert!((digging_angle(bottom, pitch).angle().to_degrees() + 20.0).abs() < 1e-13);
+/// ```
 #[inline]
 pub fn pitch_from_digging_angle<T: Real>(bottom: Rotor<T>, digging: Rotor<T>) -> Rotor<T> {
     bottom * digging

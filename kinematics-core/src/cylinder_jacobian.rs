@@ -10,6 +10,7 @@ use crate::{Cylinder, Cylinders, Joints, Machine, Pose, PoseError, Real, Rotor, 
 /// The Jacobian from cylinder lengths to the tip in the plane: rows by columns boom, arm, bucket cylinder.
 ///
 /// ```
+/// use kinematics_core::forces::Wrench;
 /// use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
 /// use kinematics_core::jacobian::Twist;
 /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
@@ -25,6 +26,12 @@ use crate::{Cylinder, Cylinders, Joints, Machine, Pose, PoseError, Real, Rotor, 
 /// let joint_space = machine.chain().jacobian(&pose.joints);
 /// let again = joint_space.per_cylinder(&machine.moment_arms(&cylinders)?)?;
 /// assert!((again.reach[0] - jacobian.reach[0]).abs() < 1e-5);
+/// // Pushing down with 1 kN: what the cylinders do is what the tip does, and from their forces the push is found again.
+/// let push = Wrench { reach: 0.0, height: -1000.0, moment: 0.0 };
+/// let forces = jacobian.cylinder_forces(&push);
+/// let power = forces.boom * rates.boom + forces.arm * rates.arm + forces.bucket * rates.bucket;
+/// assert!((power - push.height * got.height).abs() < 1e-2);
+/// assert!((jacobian.wrench(&forces)?.height + 1000.0).abs() < 1e-2);
 /// # Ok(())
 /// # }
 /// ```

@@ -5,6 +5,57 @@ use crate::validate::positive;
 use crate::{Rotor, Vec2};
 
 /// Frankel 2003's measured centre-to-centre distances, under the names of `dimensions.m`, in metres.
+///
+/// ```
+/// use kinematics_core::distances::FrankelDistances;
+/// use kinematics_core::geometry::Stroke;
+/// use kinematics_core::{Machine, Vec2};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let inches = |x: f64| x * 0.0254;
+/// let stroke = |min, max| Stroke { min_m: inches(min), max_m: inches(max) };
+/// let distances = FrankelDistances {
+///     r01_m: inches(8.5),
+///     r0n_m: inches(10.5),
+///     ran_m: inches(7.5),
+///     rjm_m: inches(10.0),
+///     r0m_m: inches(6.0),
+///     r0k_m: inches(5.5),
+///     r1c_m: inches(17.5),
+///     r12_m: inches(48.0),
+///     r2c_m: inches(36.25),
+///     r1b_m: inches(36.0),
+///     r2b_m: inches(12.35),
+///     r2d_m: inches(9.1875),
+///     rde_m: inches(13.0),
+///     r23_m: inches(38.5),
+///     r3d_m: inches(47.25),
+///     ref_m: inches(30.77),
+///     r3f_m: inches(4.5),
+///     r34_m: inches(18.5),
+///     r3g_m: inches(5.5),
+///     r4g_m: inches(20.01),
+///     rfh_m: inches(9.5),
+///     rgh_m: inches(9.5),
+///     swing: stroke(7.5, 16.6208),
+///     boom: stroke(29.0, 46.5434),
+///     arm: stroke(27.699, 41.9298),
+///     bucket: stroke(22.0242, 38.6144),
+/// };
+/// let pins = distances.to_pins()?;
+/// let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+/// // A stands 1 inch behind the boom pin. Pin to pin, the distances are there again: R2B, R1C, RDE and R4G.
+/// assert!(near(pins.boom.base.x, -inches(1.0)));
+/// assert!(near((Vec2::new(pins.boom_m, 0.0) - pins.boom.rod).norm(), inches(12.35)));
+/// assert!(near(pins.arm.base.norm(), inches(17.5)));
+/// assert!(near((pins.arm.rod - pins.bucket.base).norm(), inches(13.0)));
+/// assert!(near((Vec2::new(pins.bucket_m, 0.0) - pins.bucket.coupler_pin).norm(), inches(20.01)));
+/// assert!(Machine::<f32>::new(&pins)?.swing_cylinder().is_some());
+/// // 36 and 11 inches do not reach over the 48 of the boom.
+/// let short = FrankelDistances { r2b_m: inches(11.0), ..distances };
+/// assert_eq!(short.to_pins().map_err(|e| e.field), Err("distances.r2b_m"));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // The paper's figure labels: r2c is R2C, pins 2 and C.
 pub struct FrankelDistances {
@@ -142,6 +193,57 @@ impl FrankelDistances {
 
 /// Koivo 1994's lengths (m) and structural angles (rad), under the labels of its Figures 1 and 2. ε3, which the paper reads from a
 /// sensor, is not needed.
+///
+/// ```
+/// use core::f64::consts::PI;
+/// use kinematics_core::distances::KoivoDistances;
+/// use kinematics_core::{Machine, PinGeometry, Vec2};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// // The mini excavator's pins in Koivo's labels: lengths and directions of the vectors between them.
+/// let mini = PinGeometry::EXACT_MINI;
+/// let polar = |v: Vec2<f64>| (v.norm(), v.z.atan2(v.x));
+/// let (l_ab_m, beta_rad) = polar(mini.boom.rod);
+/// let (l_ci_m, towards_i) = polar(mini.arm.base - Vec2::new(mini.boom_m, 0.0));
+/// let (l_fc_m, gamma2_rad) = polar(mini.arm.rod);
+/// let (l_jl_m, towards_j) = polar(mini.bucket.base - mini.bucket.rocker_pivot);
+/// let (l_gd_m, nu3_rad) = polar(mini.bucket.coupler_pin);
+/// let distances = KoivoDistances {
+///     a1_m: 0.0,
+///     a2_m: 2.050,
+///     a3_m: 1.050,
+///     a4_m: 0.567,
+///     l_ab_m,
+///     l_ah_m: 0.264,
+///     l_he_m: 0.135,
+///     beta_rad,
+///     l_ci_m,
+///     l_fc_m,
+///     gamma1_rad: PI - towards_i,
+///     gamma2_rad,
+///     l_jl_m,
+///     l_kl_m: 0.240,
+///     // The rocker's pivot lies on the arm's line, 0.17 m behind the bucket pin.
+///     nu1_rad: towards_j,
+///     l_ld_m: 0.170,
+///     l_kg_m: 0.240,
+///     l_gd_m,
+///     nu2_rad: 0.0,
+///     nu3_rad,
+///     boom: mini.boom.stroke,
+///     arm: mini.arm.stroke,
+///     bucket: mini.bucket.stroke,
+/// };
+/// let pins = distances.to_pins()?;
+/// let near = |a: Vec2<f64>, b: Vec2<f64>| (a - b).norm() < 1e-15;
+/// assert!(near(pins.boom.base, mini.boom.base) && near(pins.boom.rod, mini.boom.rod));
+/// assert!(near(pins.arm.base, mini.arm.base) && near(pins.arm.rod, mini.arm.rod));
+/// assert!(near(pins.bucket.base, mini.bucket.base) && near(pins.bucket.rocker_pivot, mini.bucket.rocker_pivot));
+/// Machine::<f32>::new(&pins)?;
+/// let broken = KoivoDistances { nu2_rad: f64::NAN, ..distances };
+/// assert_eq!(broken.to_pins().map_err(|e| e.field), Err("distances.nu2_deg"));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // The paper's figure labels: l_ab is L_AB.
 pub struct KoivoDistances {

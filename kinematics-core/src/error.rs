@@ -34,6 +34,14 @@ impl fmt::Display for Cylinder {
 }
 
 /// Why a map has no answer for an input. Nothing is ever clamped.
+///
+/// ```
+/// use kinematics_core::{Cylinder, PoseError};
+/// assert_eq!(Cylinder::Arm.name(), "arm");
+/// let error = PoseError::OutOfStroke { cylinder: Cylinder::Arm, by: -0.25 };
+/// assert_eq!(error.kind(), "out_of_stroke");
+/// assert_eq!(error.to_string(), "the arm cylinder is -0.25 m below the minimum of its stroke");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PoseError<T> {
     /// The cylinder's length lies outside its stroke by `by` metres: positive beyond the maximum, negative below

@@ -19,6 +19,12 @@
 //! assert!((linkage.moment_arm_at(bucket).unwrap() - moment.arm).abs() < 1e-14);
 //! let change = linkage.moment_arm(1.0 + 1e-6).unwrap() - linkage.moment_arm(1.0 - 1e-6).unwrap();
 //! assert!((change / 2e-6 * moment.arm - moment.slope).abs() < 1e-9);
+//! // A rod of 1.6 m is longer than the rocker lets it be: an error, or unchecked not a number.
+//! let eye_m = (pins.rocker_pivot - pins.base).norm() + pins.rocker_m;
+//! assert!(linkage.rotor(1.6).is_err_and(|gap| (gap.0 - (1.6 - eye_m)).abs() < 1e-15));
+//! assert!(linkage.rotor_unchecked(1.6).cos.is_nan());
+//! assert_eq!(linkage.rotor_unchecked(1.0), bucket);
+//! assert_eq!(Ok(linkage.length_unchecked(bucket)), linkage.length(bucket));
 //! ```
 
 use crate::triangle::{Closed, Moment, Side, Triangle};

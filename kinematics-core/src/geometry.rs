@@ -78,6 +78,17 @@ impl BoomCylinder {
 
 /// Everything the maps need of a machine. Frames sit at each link's own pin, x along the link, z up (DH frames of
 /// Koivo 1994 Table 1).
+///
+/// ```
+/// use kinematics_core::PinGeometry;
+/// let mut geometry = PinGeometry::EXACT_MINI;
+/// assert!((geometry.reach_m() - 3.667).abs() < 1e-15);
+/// assert_eq!(geometry.validate(), Ok(()));
+/// // |A| + |B| is 1.36 m: a boom cylinder of 1.4 m closes no triangle.
+/// geometry.boom.stroke.max_m = 1.4;
+/// let error = geometry.validate().expect_err("too long");
+/// assert_eq!(error.to_string(), "`boom.max_m`: the linkage does not close at a cylinder length of 1.4 m");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PinGeometry {

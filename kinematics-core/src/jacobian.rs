@@ -1,7 +1,7 @@
 //! Joint rates ↔ tip twist in the boom's plane, and torques ↔ tip force by the transpose: Hareesha 2015 (9)–(12), (21).
 //!
 //! ```
-//! use kinematics_core::{Cylinders, Machine, PinGeometry};
+//! use kinematics_core::{Cylinders, Machine, PinGeometry, Vec2};
 //! use kinematics_core::rates::JointRates;
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! let machine = Machine::<f64>::new(&PinGeometry::EXACT_MINI)?;
@@ -23,6 +23,8 @@
 //! assert_eq!(jacobian.determinant(), a2 * a3 * joints.arm.sin);
 //! // Of the wrist the bucket joint moves nothing.
 //! assert_eq!(machine.chain().wrist_jacobian(&joints).matrix_2x3()[1][2], 0.0);
+//! // Any point of the bucket: the tip is the one 0.567 m from its pin.
+//! assert_eq!(machine.chain().jacobian_at(&joints, Vec2::new(0.567, 0.0)), jacobian);
 //! # Ok(())
 //! # }
 //! ```

@@ -44,6 +44,42 @@ impl<T: Real> Pose<T> {
 }
 
 /// All maps of one machine, their constants computed once in f64.
+///
+/// ```
+/// use kinematics_core::{Cylinder, Cylinders, Machine, PinGeometry, PoseError, Rotor};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let machine = Machine::<f64>::new(&PinGeometry::EXACT_MINI)?;
+/// // All cylinders in: the ends of the joints' travel that eXactMPC publishes, −27.14°, −29.24° and 44.91°.
+/// let shortest = Cylinders { boom: 0.905, arm: 1.046, bucket: 0.840 };
+/// let joints = machine.cylinders_to_joints(&shortest)?;
+/// let degrees = [joints.boom, joints.arm, joints.bucket].map(|joint| joint.angle().to_degrees());
+/// for (found, published) in degrees.into_iter().zip([-27.14, -29.24, 44.91]) {
+///     assert!((found - published).abs() < 0.01, "{found}");
+/// }
+/// assert!((machine.joints_to_cylinders(&joints)?.bucket - 0.840).abs() < 1e-14);
+///
+/// // 5 mm shorter the linkage still closes, but no cylinder goes there.
+/// let shorter = Cylinders { boom: 0.900, ..shortest };
+/// let out = |e| matches!(e, PoseError::OutOfStroke { cylinder: Cylinder::Boom, by } if by < -0.0049);
+/// assert!(machine.check_strokes(&shorter).is_err_and(out));
+/// let lower = machine.cylinders_to_joints_any_stroke(&shorter)?;
+/// assert!(lower.boom.sin < joints.boom.sin);
+/// assert!(machine.joints_to_cylinders(&lower).is_err_and(out));
+/// assert!((machine.joints_to_cylinders_any_stroke(&lower)?.boom - 0.900).abs() < 1e-14);
+///
+/// // The tip, swung to the left, and back to the joints.
+/// let left = Rotor::from_turns(0.25);
+/// let pose = machine.cylinders_to_tip(&shortest, left)?;
+/// assert_eq!((pose.x, pose.y, pose.z()), (0.0, pose.plane.reach, pose.plane.height));
+/// assert_eq!(machine.joints_to_tip(&joints, left), pose);
+/// assert_eq!(machine.chain().tip(&joints), pose.plane);
+/// assert!((machine.tip_to_joints(&pose.plane)?.arm.sin - joints.arm.sin).abs() < 1e-14);
+/// // Without checks: the same numbers, and no word of what is out of reach.
+/// assert_eq!(machine.cylinders_to_tip_unchecked(&shortest, left), pose);
+/// assert!(machine.cylinders_to_tip_unchecked(&Cylinders { boom: 2.0, ..shortest }, left).z().is_nan());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Machine<T> {
     pub(crate) boom: Triangle<T>,

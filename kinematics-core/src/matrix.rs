@@ -1,4 +1,26 @@
 //! Homogeneous matrices for those who want them: Koivo 1994 (2), (3), (9), Frankel 2003 `Jdisp`. Row-major; the ECU uses none.
+//!
+//! ```
+//! use kinematics_core::matrix::{denavit_hartenberg, product};
+//! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
+//! # fn main() -> Result<(), Box<dyn core::error::Error>> {
+//! let machine = Machine::<f64>::new(&PinGeometry { boom_pin_x_m: 0.3, ..PinGeometry::EXACT_MINI })?;
+//! let swing = Rotor::from_degrees(40.0);
+//! let pose = machine.cylinders_to_tip(&Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 }, swing)?;
+//! // The last column is the tip, and the wrist: the same point as by the rotors.
+//! let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+//! let tip = machine.chain().base_to_tip(swing, &pose.joints).map(|row| row[3]);
+//! assert!(near(tip[0], pose.x) && near(tip[1], pose.y) && near(tip[2], pose.z()));
+//! let to_wrist = machine.chain().base_to_wrist(swing, &pose.joints);
+//! let wrist = machine.chain().wrist(&pose.joints);
+//! assert!(near(to_wrist[0][3], wrist.x * swing.cos) && near(to_wrist[2][3], wrist.z));
+//! // From the wrist on, the bucket's own transform: 0.567 m along its x axis.
+//! let [_, _, _, bucket] = machine.chain().link_matrices(swing, &pose.joints);
+//! assert_eq!(bucket, denavit_hartenberg(pose.joints.bucket, Rotor::IDENTITY, 0.567, 0.0));
+//! assert_eq!(product(&to_wrist, &bucket).map(|row| row[3]), tip);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::chain::{Chain, Joints};
 use crate::{Real, Rotor};

@@ -6,6 +6,20 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::sqrt::{sqrt_f32, sqrt_f64};
 
 /// What the maps need of a number: `+ − × ÷ √` and comparison. No trigonometry, no fused multiply-add.
+///
+/// ```
+/// use kinematics_core::Real;
+/// fn hypotenuse<T: Real>(a: T, b: T) -> T {
+///     (a * a + b * b).sqrt()
+/// }
+/// assert_eq!((hypotenuse(3.0_f32, 4.0), hypotenuse(5.0_f64, 12.0)), (5.0, 13.0));
+/// // To the ECU's precision and back: 0.1 is not the same number in f32.
+/// assert_eq!(f32::from_f64(0.1).to_f64(), f64::from(0.1_f32));
+/// assert_eq!(f64::from_i32(-3) + f64::ONE + f64::ZERO, -2.0);
+/// assert_eq!([2.4_f32, 2.5, -2.5, 1e12, f32::NAN].map(Real::nearest_i32), [2, 3, -3, i32::MAX, 0]);
+/// assert_eq!((-4.0_f32).sqrt_of_magnitude(), 2.0);
+/// assert_eq!(<f64 as Real>::atan2(1.0, 0.0), core::f64::consts::FRAC_PI_2);
+/// ```
 pub trait Real:
     Copy
     + Debug
@@ -55,6 +69,18 @@ pub trait Real:
 }
 
 /// A constant as the unevaluated sum hi + lo, so that adding a measured length to it rounds once, not twice.
+///
+/// ```
+/// use kinematics_core::Real;
+/// let constant = f32::split(2.163);
+/// let length = 2.163_f32;
+/// // Of the small difference f32 alone keeps nothing.
+/// assert_eq!(constant.hi - length, 0.0);
+/// let difference = 2.163 - f64::from(length);
+/// assert!(difference.abs() > 1e-9);
+/// assert!((constant.minus(length).to_f64() - difference).abs() < 1e-14);
+/// assert!((constant.plus(-length).to_f64() - difference).abs() < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split<T> {
     /// The constant rounded to T.

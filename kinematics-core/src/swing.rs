@@ -6,6 +6,30 @@ use crate::triangle::{Side, Triangle};
 use crate::{Cylinder, PlaneTip, PoseError, Real, Rotor};
 
 /// The swing cylinder's triangle, seen from above: Frankel 2003 (1)–(4).
+///
+/// ```
+/// use kinematics_core::geometry::{PinGeometry, Stroke, SwingPins};
+/// use kinematics_core::{Machine, Rotor, Vec2};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// // Frankel's R0M, RJM, R0K and travel, inches.
+/// let inch_m = 0.0254;
+/// let swing = SwingPins {
+///     base: Vec2::new(-6.0, -10.0).scale(inch_m),
+///     rod: Vec2::new(5.5, 0.0).scale(inch_m),
+///     stroke: Stroke { min_m: 7.5 * inch_m, max_m: 16.6208 * inch_m },
+/// };
+/// let machine = Machine::<f64>::new(&PinGeometry { swing: Some(swing), ..PinGeometry::EXACT_MINI })?;
+/// let cylinder = machine.swing_cylinder().ok_or("no swing cylinder")?;
+/// // Straight ahead the pins are 11.5 and 10 inches apart.
+/// let ahead = cylinder.length(Rotor::IDENTITY)?;
+/// assert!((ahead - 11.5f64.hypot(10.0) * inch_m).abs() < 1e-15);
+/// assert!(cylinder.rotor(ahead)?.angle().abs() < 1e-14);
+/// // Extending swings to the left.
+/// assert!(cylinder.rotor(ahead + inch_m)?.sin > 0.0);
+/// assert!(cylinder.rotor(17.0 * inch_m).is_err());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SwingCylinder<T> {
     triangle: Triangle<T>,
@@ -75,6 +99,18 @@ impl<T: Real> SwingCylinder<T> {
 ///
 /// # Errors
 /// [`PoseError::Unreachable`] for a point on the swing axis, where the swing is undefined.
+///
+/// ```
+/// use kinematics_core::Rotor;
+/// use kinematics_core::swing::plane_through;
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let (swing, tip) = plane_through(1.5, -2.0, -1.0, Rotor::IDENTITY)?;
+/// assert_eq!((swing.cos, swing.sin), (0.6, -0.8));
+/// assert_eq!((tip.reach, tip.height), (2.5, -1.0));
+/// assert!(plane_through(0.0, 0.0, -1.0, Rotor::IDENTITY).is_err());
+/// # Ok(())
+/// # }
+/// ```
 pub fn plane_through<T: Real>(x: T, y: T, z: T, pitch: Rotor<T>) -> Result<(Rotor<T>, PlaneTip<T>), PoseError<T>> {
     let radial = crate::Vec2::new(x, y);
     let swing = radial.direction().ok_or(PoseError::Unreachable { by: -radial.norm() })?;

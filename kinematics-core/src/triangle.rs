@@ -20,6 +20,13 @@
 //! assert!((arm - 0.5f64.sqrt()).abs() < 1e-15);
 //! assert!((triangle.moment_arm_at(joint).unwrap() - arm).abs() < 1e-15);
 //! assert!((triangle.moment(length).unwrap().slope + arm * arm / length).abs() < 1e-15);
+//! // Beyond 2 m the sides miss each other, below 0° there is no length; unchecked, nobody says so.
+//! assert_eq!(triangle.vector(length).map(|v| (v.x, v.z)), Ok((joint.cos, joint.sin)));
+//! assert_eq!(triangle.vector(2.5), Err(0.5));
+//! assert_eq!(triangle.vector_unchecked(length), joint.to_vec());
+//! assert!(triangle.vector_unchecked(2.5).x.is_nan());
+//! assert!((triangle.length(joint.inverse()).unwrap_err() - 0.5f64.sqrt()).abs() < 1e-15);
+//! assert!((triangle.length_unchecked(joint.inverse()) - length).abs() < 1e-15);
 //! ```
 
 use crate::{Real, Rotor, Split, Vec2};

@@ -3,6 +3,21 @@
 use crate::{Real, Rotor};
 
 /// Where the base frame stands in the world: first roll about x, then pitch about y, then heading about z.
+///
+/// ```
+/// use kinematics_core::Rotor;
+/// use kinematics_core::world::BasePlacement;
+/// // Facing the world's y: 3 m ahead and 1 m up of the base.
+/// let quarter = Rotor::from_turns(0.25);
+/// let level = BasePlacement::level(quarter, [10.0, 20.0, 0.5]);
+/// assert_eq!(level.to_world([3.0, 0.0, 1.0]), [10.0, 23.0, 1.5]);
+/// assert_eq!(level.to_base([10.0, 23.0, 1.5]), [3.0, 0.0, 1.0]);
+/// // On its nose, ahead is down; on its right side, up is to the right.
+/// let pitched = BasePlacement { heading: Rotor::IDENTITY, pitch: quarter, ..level };
+/// assert_eq!(pitched.to_world([3.0, 0.0, 0.0]), [10.0, 20.0, -2.5]);
+/// let rolled = BasePlacement { heading: Rotor::IDENTITY, roll: quarter, ..level };
+/// assert_eq!(rolled.to_world([0.0, 0.0, 3.0]), [10.0, 17.0, 0.5]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BasePlacement<T> {
     /// Heading about the world's z, counter-clockwise. Koivo 1994 (6) is a heading of +90°.
