@@ -54,8 +54,6 @@ pub struct Sensed {
     pub swing: Rotor<f32>,
     /// Cylinder lengths, m.
     pub lengths: Cylinders<f32>,
-    /// Supply voltage, V.
-    pub supply_v: f32,
 }
 
 /// The sensing stage.
@@ -115,6 +113,6 @@ impl Sensing {
                 cylinder.rotor(length).map_err(|_| Cylinder::Swing)?
             }
         };
-        Ok(Sensed { swing, lengths, supply_v: self.supply_v(inputs) })
+        Ok(Sensed { swing, lengths })
     }
 }

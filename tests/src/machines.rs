@@ -1,6 +1,5 @@
 //! The reference machines' pins as numbers, so that these tests do not depend on the machine files they help to check.
 
-use kinematics_core::distances::FrankelDistances;
 use kinematics_core::geometry::{BoomCylinder, BucketPins, CylinderPins, PinGeometry, Stroke};
 use kinematics_core::{GeometryError, Vec2};
 
@@ -27,42 +26,8 @@ const fn stroke(min_m: f64, max_m: f64) -> Stroke {
     Stroke { min_m, max_m }
 }
 
-fn stroke_in(min: f64, max: f64) -> Stroke {
-    stroke(min * INCH_M, max * INCH_M)
-}
-
-/// Frankel 2003 `dimensions.m` and the travel limits of its figure, turned from inches to metres.
-pub fn frankel_distances() -> FrankelDistances {
-    let inches = |x: f64| x * INCH_M;
-    FrankelDistances {
-        r01_m: inches(8.5),
-        r0n_m: inches(10.5),
-        ran_m: inches(7.5),
-        rjm_m: inches(10.0),
-        r0m_m: inches(6.0),
-        r0k_m: inches(5.5),
-        r1c_m: inches(17.5),
-        r12_m: inches(48.0),
-        r2c_m: inches(36.25),
-        r1b_m: inches(36.0),
-        r2b_m: inches(12.35),
-        r2d_m: inches(9.0 + 3.0 / 16.0),
-        rde_m: inches(13.0),
-        r23_m: inches(38.5),
-        r3d_m: inches(47.25),
-        ref_m: inches(30.77),
-        r3f_m: inches(4.5),
-        r34_m: inches(18.5),
-        r3g_m: inches(5.5),
-        r4g_m: inches(20.01),
-        rfh_m: inches(9.5),
-        rgh_m: inches(9.5),
-        swing: stroke_in(7.5, 16.6208),
-        boom: stroke_in(29.0, 46.5434),
-        arm: stroke_in(27.6990, 41.9298),
-        bucket: stroke_in(22.0242, 38.6144),
-    }
-}
+/// Frankel 2003 `dimensions.m` and the travel limits of its figure: the set the bench counts on.
+pub use bench::ours::frankel as frankel_distances;
 
 /// Hitachi ZX200 class, 20 t: PWRI OPERA's published simulation scene and URDF.
 pub const ZX200: PinGeometry = PinGeometry {

@@ -78,11 +78,6 @@ impl Events {
         Self(events)
     }
 
-    /// The events, as the file lists them.
-    pub fn iter(&self) -> impl Iterator<Item = &Event> {
-        self.0.iter()
-    }
-
     /// Does to `inputs` what the events under way at `time_s` do; `last_counter` is the command counter of the tick before.
     pub fn apply(&self, time_s: f64, inputs: &mut Inputs, last_counter: u8) {
         for event in self.0.iter().filter(|e| time_s >= e.at_s && time_s < e.until_s) {
