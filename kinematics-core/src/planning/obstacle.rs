@@ -13,7 +13,7 @@ pub struct Obstacle<T> {
     pub acts_m: T,
 }
 
-/// The point of a chain nearest to an obstacle.
+/// The point of a chain, or of one of its links, nearest to an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Critical<T> {
     /// Its link, counted from 0.
@@ -26,37 +26,53 @@ pub struct Critical<T> {
     pub away: Rotor<T>,
 }
 
-/// The critical point of a chain whose links end at `ends` (m) as seen from `position`.
+/// Each link's own critical point, for a chain whose links end at `ends` (m), as seen from `position`.
 ///
 /// ```
 /// use kinematics_core::Vec2;
-/// use kinematics_core::planning::obstacle::nearest;
+/// use kinematics_core::planning::obstacle::critical_points;
 /// // One link forward, one up; the obstacle beside the second.
-/// let found = nearest(&[Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)], Vec2::new(2.5, 0.5));
-/// assert_eq!((found.link, found.point, found.distance_m), (1, Vec2::new(2.0, 0.5), 0.5));
-/// assert_eq!(found.away.to_vec(), Vec2::new(-1.0, 0.0));
+/// let [first, second] = critical_points(&[Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)], Vec2::new(2.5, 0.5));
+/// assert_eq!((first.link, first.point), (0, Vec2::new(2.0, 0.0)));
+/// assert_eq!((second.link, second.point, second.distance_m), (1, Vec2::new(2.0, 0.5), 0.5));
+/// assert_eq!(second.away.to_vec(), Vec2::new(-1.0, 0.0));
 /// ```
-pub fn nearest<T: Real, const N: usize>(ends: &[Vec2<T>; N], position: Vec2<T>) -> Critical<T> {
-    let mut start = Vec2::new(T::ZERO, T::ZERO);
-    let mut best: Option<Critical<T>> = None;
-    for (link, &end) in ends.iter().enumerate() {
+pub fn critical_points<T: Real, const N: usize>(ends: &[Vec2<T>; N], position: Vec2<T>) -> [Critical<T>; N] {
+    let (mut start, mut link) = (Vec2::new(T::ZERO, T::ZERO), 0);
+    ends.map(|end| {
         let along = end - start;
         let square = along.norm_squared();
         let part = if square > T::ZERO { (position - start).dot(along) / square } else { T::ZERO };
         let part = if part < T::ZERO { T::ZERO } else { part };
         let point = if part < T::ONE { start + along.scale(part) } else { end };
-        let from = point - position;
-        let distance_m = from.norm();
-        if best.is_none_or(|best| distance_m < best.distance_m) {
-            let across = Vec2::new(-along.z, along.x);
-            let away = from.direction().or_else(|| across.direction()).unwrap_or(Rotor::IDENTITY);
-            best = Some(Critical { link, point, distance_m, away });
-        }
-        start = end;
-    }
-    // No chain has no link; the base stands for one.
-    let base = Critical { link: 0, point: start, distance_m: (start - position).norm(), away: Rotor::IDENTITY };
-    best.unwrap_or(base)
+        let (from, across) = (point - position, Vec2::new(-along.z, along.x));
+        let away = from.direction().or_else(|| across.direction()).unwrap_or(Rotor::IDENTITY);
+        let critical = Critical { link, point, distance_m: from.norm(), away };
+        (start, link) = (end, link + 1);
+        critical
+    })
+}
+
+/// The critical point of the whole chain: the nearest of [`critical_points`], the first of equals.
+///
+/// ```
+/// use kinematics_core::Vec2;
+/// use kinematics_core::planning::obstacle::nearest;
+/// let found = nearest(&[Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0)], Vec2::new(2.5, 0.5));
+/// assert_eq!((found.link, found.distance_m), (1, 0.5));
+/// ```
+pub fn nearest<T: Real, const N: usize>(ends: &[Vec2<T>; N], position: Vec2<T>) -> Critical<T> {
+    let origin = Vec2::new(T::ZERO, T::ZERO);
+    let base = Critical {
+        link: 0,
+        point: origin,
+        distance_m: position.norm(),
+        away: (origin - position).direction().unwrap_or(Rotor::IDENTITY),
+    };
+    // The base is part of the first link.
+    critical_points(ends, position)
+        .into_iter()
+        .fold(base, |best, one| if one.distance_m < best.distance_m { one } else { best })
 }
 
 impl<T: Real> Obstacle<T> {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::obstacle::{Critical, Obstacle, nearest};
+use super::obstacle::{Critical, Obstacle, critical_points, nearest};
 use super::park::{Direction, link_jacobian, link_velocities, moved, null_term};
 use crate::chain_n::PlanarChain;
 use crate::redundancy::{damped_rates, null_projector};
@@ -10,6 +10,10 @@ use crate::{Real, Rotor, Vec2};
 
 /// How often a step that would come too near the obstacle is halved before it is not taken.
 const HALVINGS: u32 = 6;
+/// The rates are turned aside a little before `keep_m`, so that a finite step that touches does not enter.
+const ASIDE: f64 = 1.05;
+/// Passes over the links while their rates give way: two links may touch at once.
+const PASSES: u32 = 8;
 
 /// The gains of Park (12) and what the iteration needs beside them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,17 +150,17 @@ impl<T: Real, const N: usize> Planner<T, N> {
 
     /// One iteration from `joints` towards `target` (m).
     ///
-    /// The sum of (12), scaled so that no joint turns more than `turn_rad`; then the obstacle goes first: where the critical point would
-    /// come nearer by more than half of what is left to `keep_m`, the smallest change of the rates prevents it. All terms but s_e's
-    /// own leave the tip where it is, so (12) alone would take the tip through the obstacle.
+    /// The sum of (12), scaled so that no joint turns more than `turn_rad`; then the obstacle goes first: where a link would come
+    /// nearer by more than half of what is left to `keep_m` (and a twentieth more), the smallest change of the rates prevents it. All
+    /// terms but s_e's own leave the tip where it is, so (12) alone would take the tip through the obstacle.
     pub fn step(&self, joints: &[Rotor<T>; N], target: Vec2<T>, obstacle: Option<&Obstacle<T>>) -> Step<T, N> {
         let obstacle = obstacle.filter(|_| self.parameters.obstacle > T::ZERO);
         let ends = self.chain.ends(joints);
         let critical = obstacle.map(|obstacle| (obstacle, nearest(&ends, obstacle.position)));
         let mut change = self.sum(joints, &ends, target, critical.as_ref());
         self.limit(&mut change);
-        if let Some((obstacle, critical)) = &critical {
-            give_way(&mut change, &ends, obstacle, critical);
+        if let Some((obstacle, _)) = critical {
+            give_way(&mut change, &ends, obstacle);
         }
         for _ in 0..HALVINGS {
             let next = turned(joints, &change);
@@ -246,27 +250,29 @@ impl<T: Real, const N: usize> Planner<T, N> {
     }
 }
 
-/// Takes out of `change`, by its smallest correction, what brings the critical point nearer than half way to `keep_m`.
-fn give_way<T: Real, const N: usize>(
-    change: &mut [T; N],
-    ends: &[Vec2<T>; N],
-    obstacle: &Obstacle<T>,
-    critical: &Critical<T>,
-) {
-    let jacobian = link_jacobian(ends, critical.link, critical.point);
-    let away = critical.away.to_vec();
-    let left = critical.distance_m - obstacle.keep_m;
-    let allowed = T::from_f64(-0.5) * left;
-    let speed = moved(&jacobian, change).dot(away);
-    let [reach, height] = jacobian;
-    let mut row = [T::ZERO; N];
-    for ((row, x), z) in row.iter_mut().zip(reach).zip(height) {
-        *row = x * away.x + z * away.z;
-    }
-    let square = row.iter().fold(T::ZERO, |sum, &r| sum + r * r);
-    if speed < allowed && square > T::ZERO {
-        for (change, r) in change.iter_mut().zip(row) {
-            *change = *change + r * ((allowed - speed) / square);
+/// Takes out of `change`, by the smallest correction link after link, what brings a link too near.
+fn give_way<T: Real, const N: usize>(change: &mut [T; N], ends: &[Vec2<T>; N], obstacle: &Obstacle<T>) {
+    let wall = T::from_f64(ASIDE) * obstacle.keep_m;
+    let links = critical_points(ends, obstacle.position);
+    for _ in 0..PASSES {
+        for critical in &links {
+            let jacobian = link_jacobian(ends, critical.link, critical.point);
+            let away = critical.away.to_vec();
+            let allowed = T::from_f64(0.5) * (wall - critical.distance_m);
+            let speed = moved(&jacobian, change).dot(away);
+            let [reach, height] = jacobian;
+            let mut row = [T::ZERO; N];
+            for ((row, x), z) in row.iter_mut().zip(reach).zip(height) {
+                *row = x * away.x + z * away.z;
+            }
+            let square = row.iter().fold(T::ZERO, |sum, &r| sum + r * r);
+            let by = (allowed - speed) / square;
+            // A link that cannot turn its point away has no say.
+            if speed < allowed && by * T::ZERO == T::ZERO {
+                for (change, r) in change.iter_mut().zip(row) {
+                    *change = *change + r * by;
+                }
+            }
         }
     }
 }
