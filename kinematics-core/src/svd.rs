@@ -152,7 +152,7 @@ impl<T: Real> SingularValues<T> {
 }
 
 /// The pseudo-inverse of a Jacobian that may have any rank, rows joints: JᵀΣuuᵀ/max(σ², trusted²). Where both singular values are
-/// at least `trusted` (m, above 0) it is the exact one; a smaller σ is inverted as σ/trusted², which is continuous and 0 at 0.
+/// at least `trusted` (m, above 0) it is the exact one; a smaller σ is inverted as σ/trusted², which is continuous and 0 at 0. Rounding is worth ε·(σ₁/trusted)².
 ///
 /// ```
 /// use kinematics_core::svd::trusted_inverse;

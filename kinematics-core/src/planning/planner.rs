@@ -152,7 +152,8 @@ impl<T: Real, const N: usize> Planner<T, N> {
     ///
     /// The sum of (12), scaled so that no joint turns more than `turn_rad`; then the obstacle goes first: where a link would come
     /// nearer by more than half of what is left to `keep_m` (and a twentieth more), the smallest change of the rates prevents it. All
-    /// terms but s_e's own leave the tip where it is, so (12) alone would take the tip through the obstacle.
+    /// terms but s_e's own leave the tip where it is, so (12) alone would take the tip through the obstacle. A step that would still
+    /// enter `keep_m` is halved, at most five times; then, as where a rate is not finite, the arm stays.
     pub fn step(&self, joints: &[Rotor<T>; N], target: Vec2<T>, obstacle: Option<&Obstacle<T>>) -> Step<T, N> {
         let obstacle = obstacle.filter(|_| self.parameters.obstacle > T::ZERO);
         let ends = self.chain.ends(joints);
@@ -162,7 +163,8 @@ impl<T: Real, const N: usize> Planner<T, N> {
         if let Some((obstacle, _)) = critical {
             give_way(&mut change, &ends, obstacle);
         }
-        for _ in 0..HALVINGS {
+        let finite = change.iter().all(|&c| c * T::ZERO == T::ZERO);
+        for _ in (0..HALVINGS).filter(|_| finite) {
             let next = turned(joints, &change);
             let free = critical.is_none_or(|(obstacle, before)| {
                 let after = nearest(&self.chain.ends(&next), obstacle.position).distance_m;
