@@ -27,6 +27,11 @@ const JOINTS: [(Look, &str); 4] = [
 const DISTANCE: Look = Look::Line(colours::BLUE, 2.0);
 const LEFT: Look = Look::Line(colours::GREEN, 2.0);
 
+/// A figure of a case, with axes that hold every case.
+type Draw = fn(&PlanarArm, &Case, &[&Case]) -> Figure;
+/// What a line shows of a pose.
+type Value = fn(&Pose) -> f64;
+
 /// The arm is drawn after each so many iterations.
 const EVERY: usize = 3;
 
@@ -44,8 +49,7 @@ pub fn write_planar_arm(scenario: &PlanarArm, cases: &[Case; 3], summary: &Summa
     let header = ["Run", "s_e, s_o, s_k", "Target", "Last distance", "Nearest to the obstacle"];
     page.table(&header, &summary.cases.iter().map(row).collect::<Vec<_>>());
     let [_, without, with] = cases;
-    let drawn: [(&str, fn(&PlanarArm, &Case, &[&Case]) -> Figure); 3] =
-        [("arm.svg", arm), ("joints.svg", joints), ("distance.svg", distance)];
+    let drawn: [(&str, Draw); 3] = [("arm.svg", arm), ("joints.svg", joints), ("distance.svg", distance)];
     for (file, draw) in drawn {
         // Both with the axes that hold both.
         let both = [without, with];
@@ -165,7 +169,7 @@ fn arm(scenario: &PlanarArm, case: &Case, both: &[&Case]) -> Figure {
 }
 
 /// A figure over the iterations; `of` gives each line.
-fn history(case: &Case, both: &[&Case], name: &'static str, of: &[(fn(&Pose) -> f64, Look)], also: &[f64]) -> Panel {
+fn history(case: &Case, both: &[&Case], name: &'static str, of: &[(Value, Look)], also: &[f64]) -> Panel {
     let all = both.iter().flat_map(|case| &case.poses).flat_map(|pose| of.iter().map(|(value, _)| value(pose)));
     let y = Axis::around(name, all.chain(also.iter().copied()));
     let x = Axis::new("iteration", 0.0, case.poses.len().saturating_sub(1) as f64);
@@ -177,7 +181,7 @@ fn history(case: &Case, both: &[&Case], name: &'static str, of: &[(fn(&Pose) -> 
 }
 
 fn joints(_: &PlanarArm, case: &Case, both: &[&Case]) -> Figure {
-    let angles: [fn(&Pose) -> f64; 4] = [
+    let angles: [Value; 4] = [
         |pose| pose.joints_rad[0].to_degrees(),
         |pose| pose.joints_rad[1].to_degrees(),
         |pose| pose.joints_rad[2].to_degrees(),
@@ -193,7 +197,7 @@ fn joints(_: &PlanarArm, case: &Case, both: &[&Case]) -> Figure {
 }
 
 fn distance(scenario: &PlanarArm, case: &Case, both: &[&Case]) -> Figure {
-    let lines: [(fn(&Pose) -> f64, Look); 2] = [(|pose| pose.obstacle_m, DISTANCE), (|pose| pose.target_m, LEFT)];
+    let lines: [(Value, Look); 2] = [(|pose| pose.obstacle_m, DISTANCE), (|pose| pose.target_m, LEFT)];
     let keep = scenario.obstacle.keep_m;
     let mut panel = history(case, both, "distance [m]", &lines, &[0.0]);
     panel.marks.push(Mark::Lines(vec![vec![(panel.x.from, keep), (panel.x.until, keep)]], KEPT));
