@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod machine;
+mod planar_arm;
 pub mod pose;
 mod progress;
 pub mod run;

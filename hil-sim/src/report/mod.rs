@@ -12,6 +12,7 @@ mod dig;
 mod figures;
 mod html;
 mod machine;
+mod planar_arm;
 mod run;
 mod series;
 mod table;
@@ -20,6 +21,7 @@ mod tests;
 
 pub use dig::draw_only;
 pub use machine::write_machine;
+pub use planar_arm::{planar_arm_table, write_planar_arm};
 pub use run::write;
 pub use table::table;
 
