@@ -6,11 +6,13 @@
 //!   against [`minimum_norm`];
 //! - [`cylinder_path`] — a smooth path through the planned cylinder lengths; [`time_scaling`] — how fast along it.
 
-//pub mod cylinder_path;
+pub mod cylinder_path;
 pub mod effort;
 pub mod least_effort;
 pub mod minimum_norm;
+pub mod move_limits;
 pub mod pitch_plan;
 pub mod pitch_rule;
+pub mod speed_table;
+pub mod time_scaling;
 pub mod tip_path;
-//pub mod time_scaling;
