@@ -62,9 +62,11 @@ fn hydraulics(args: &EffortArgs, machine: &str) -> Result<Option<Hydraulics>, An
         [] => return Ok(None),
         &[b, br, a, ar, k, kr] => [[b, br], [a, ar], [k, kr]],
         other => {
-            return Err(
-                format!("`--bores` has {} numbers but needs 6: bore and rod of boom, arm, bucket", other.len()).into()
-            );
+            return Err(format!(
+                "`--bores` has {} numbers but needs 6: bore and rod of boom, arm, bucket",
+                other.len()
+            )
+            .into());
         }
     };
     for [bore, rod] in given {
