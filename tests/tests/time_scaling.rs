@@ -4,7 +4,7 @@
 use cross_tests::sweep::Random;
 use kinematics_core::planning::cylinder_path::CylinderPath;
 use kinematics_core::planning::move_limits::{Limits, MoveLimits};
-use kinematics_core::planning::time_scaling::TimeScaling;
+use kinematics_core::planning::time_scaling::{Pace, TimeScaling};
 use kinematics_core::{Cylinders, Real};
 
 const TICK_S: f64 = 0.001;
@@ -57,14 +57,15 @@ fn run<T: Real>(
     };
     let checked = Limits::<T>::new(limits)?;
     let path = CylinderPath::new(&knots.map(|c| to_t(&c)), &checked).ok_or("no movement")?;
-    let mut scaling = TimeScaling::new(&path, &checked, TICK_S)?;
+    let scaling = TimeScaling::new(&path, &checked, TICK_S)?;
+    let mut pace = Pace::start();
     // Differences are taken of the same path in f64: of f32 lengths they would show rounding alone.
     let exact = CylinderPath::new(knots, &Limits::<f64>::new(limits)?).ok_or("no movement")?;
     let first = array(&exact.at(0.0).lengths);
     let mut last = [first; 3];
     let mut used = Used { speed: 0.0, acceleration: 0.0, jerk: 0.0, flow: 0.0, ticks: 0 };
     loop {
-        let progress = scaling.advance(T::from_f64(share(used.ticks)));
+        let progress = scaling.advance(&mut pace, T::from_f64(share(used.ticks)));
         used.ticks += 1;
         assert!(used.ticks < LONGEST, "never ends");
         let now = array(&exact.at(progress.s.to_f64()).lengths);
@@ -103,4 +104,147 @@ fn no_bound_is_ever_exceeded_and_every_move_ends() {
     println!("largest share of speed, acceleration, jerk, flow: {worst:.4?}");
     assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6), "{worst:?}");
     assert!(worst.iter().all(|share| *share > 0.9), "a limit is never used: {worst:?}");
+}
+
+#[test]
+fn in_f32_the_bounds_hold_to_its_rounding() {
+    let mut stream = Random::new(11);
+    for _ in 0..100 {
+        let (knots, limits) = random_move(&mut stream);
+        let used = run::<f32>(&knots, &limits, |_| 1.0).unwrap_or_else(|e| panic!("{e}: {limits:?}"));
+        // s itself, a number of 24 bits, steps: only speeds and flow are more than its rounding over a tick.
+        assert!(used.speed < 1.01 && used.flow < 1.01, "{} {}", used.speed, used.flow);
+    }
+}
+
+#[test]
+fn less_speed_may_be_asked_for_at_any_time_and_the_bounds_still_hold() {
+    let mut stream = Random::new(3);
+    let mut worst = [0.0_f64; 4];
+    for i in 0..100 {
+        let (knots, limits) = random_move(&mut stream);
+        // Now and then a third, nothing, all.
+        let share = |tick: usize| [1.0, 0.33, 1.0, 0.0, 0.7][(tick / (150 + 13 * i)) % 5];
+        let used = run::<f64>(&knots, &limits, share).unwrap_or_else(|e| panic!("{e}: {limits:?}"));
+        let all = [used.speed, used.acceleration, used.jerk, used.flow];
+        worst = std::array::from_fn(|i| worst[i].max(all[i]));
+    }
+    assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6), "{worst:?}");
+}
+
+/// The least time of a straight path with jerk limit: rest to rest, seven phases or fewer (Biagiotti and Melchiorri 2008, 3.4).
+fn double_s(length: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
+    // Time from rest to a speed, and the length of both ramps.
+    let ramp = |v: f64| {
+        if v * jerk < acceleration * acceleration {
+            2.0 * libm::sqrt(v / jerk)
+        } else {
+            v / acceleration + acceleration / jerk
+        }
+    };
+    if ramp(speed) * speed <= length {
+        return 2.0 * ramp(speed) + (length - ramp(speed) * speed) / speed;
+    }
+    let (mut low, mut high) = (0.0, speed);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if ramp(middle) * middle <= length { low = middle } else { high = middle }
+    }
+    2.0 * ramp(low)
+}
+
+#[test]
+fn a_straight_move_takes_little_more_than_the_least_time() {
+    let mut worst: f64 = 0.0;
+    for (length, speed, acceleration, jerk) in [
+        (1.0, 0.3, 0.5, 5.0),
+        (0.3, 0.3, 0.5, 5.0),
+        (0.1, 0.4, 1.0, 10.0),
+        (1.2, 0.6, 0.6, 3.0),
+        (0.02, 0.3, 1.0, 20.0),
+    ] {
+        let limits = MoveLimits {
+            speed_mps: [[speed; 2]; 3],
+            acceleration_mps2: [acceleration; 3],
+            jerk_mps3: [jerk; 3],
+            areas_m2: [[0.0; 2]; 3],
+            flow_m3ps: 1.0,
+        };
+        let knots = std::array::from_fn(|i| {
+            let share = i as f64 / (K - 1) as f64;
+            Cylinders { boom: 2.0 + length * share, arm: 2.0 - 0.7 * length * share, bucket: 2.0 }
+        });
+        let used = run::<f64>(&knots, &limits, |_| 1.0).expect("a profile");
+        let ratio = used.ticks as f64 * TICK_S / double_s(length, speed, acceleration, jerk);
+        println!("{length} m: {:.3} s, {ratio:.3} of the least", used.ticks as f64 * TICK_S);
+        assert!(ratio >= 0.999, "faster than possible: {ratio}");
+        worst = worst.max(ratio);
+    }
+    assert!(worst < 1.12, "{worst}");
+}
+
+/// A bound below the least time of a curved path: speeds, flow and accelerations on a fine grid, jerk left aside, by a pass
+/// backwards and one forwards in ṡ².
+fn least_time_without_jerk(knots: &[Cylinders<f64>; K], limits: &MoveLimits) -> f64 {
+    const N: usize = 4000;
+    let path = CylinderPath::new(knots, &Limits::<f64>::new(limits).expect("limits")).expect("movement");
+    let at: Vec<_> = (0..=N).map(|i| path.at(i as f64 / N as f64)).collect();
+    let ds = 1.0 / N as f64;
+    // Allowed s̈ at a place for a square x of the rate.
+    let range = |i: usize, x: f64| {
+        (0..3).fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], axis| {
+            let (slope, bend) = (at[i].slope[axis], at[i].curvature[axis] * x);
+            let limit = limits.acceleration_mps2[axis];
+            if slope.abs() < 1e-9 {
+                return [low, high];
+            }
+            let ends = [(-limit - bend) / slope, (limit - bend) / slope];
+            [low.max(ends[0].min(ends[1])), high.min(ends[0].max(ends[1]))]
+        })
+    };
+    let mut square: Vec<f64> = (0..=N)
+        .map(|i| {
+            let mut flow = 0.0;
+            let mut rate = f64::INFINITY;
+            for axis in 0..3 {
+                let slope = at[i].slope[axis];
+                let way = usize::from(slope < 0.0);
+                rate = rate.min(limits.speed_mps[axis][way] / slope.abs());
+                flow += limits.areas_m2[axis][way] * slope.abs();
+            }
+            let mut x = rate.min(limits.flow_m3ps / flow).powi(2);
+            while range(i, x)[0] > range(i, x)[1] {
+                x *= 0.999;
+            }
+            x
+        })
+        .collect();
+    square[0] = 0.0;
+    square[N] = 0.0;
+    for i in (0..N).rev() {
+        let slowing = -range(i + 1, square[i + 1])[0];
+        square[i] = square[i].min(square[i + 1] + 2.0 * slowing.max(0.0) * ds);
+    }
+    for i in 0..N {
+        let gaining = range(i, square[i])[1];
+        square[i + 1] = square[i + 1].min(square[i] + 2.0 * gaining.max(0.0) * ds);
+    }
+    square.windows(2).map(|x| 2.0 * ds / (x[0].sqrt() + x[1].sqrt())).sum()
+}
+
+#[test]
+fn curved_moves_stay_near_a_bound_that_no_jerk_limited_move_can_reach() {
+    let mut stream = Random::new(21);
+    let mut ratios: Vec<f64> = (0..60)
+        .map(|_| {
+            let (knots, limits) = random_move(&mut stream);
+            let used = run::<f64>(&knots, &limits, |_| 1.0).unwrap_or_else(|e| panic!("{e}: {limits:?}"));
+            used.ticks as f64 * TICK_S / least_time_without_jerk(&knots, &limits)
+        })
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let (median, worst) = (ratios[ratios.len() / 2], ratios[ratios.len() - 1]);
+    println!("time over the bound without jerk: median {median:.3}, worst {worst:.3}");
+    assert!(ratios[0] > 0.999, "faster than possible: {}", ratios[0]);
+    assert!(median < 1.5 && worst < 3.0, "{median} {worst}");
 }

@@ -3,7 +3,7 @@
 
 use kinematics_core::Cylinders;
 use kinematics_core::planning::cylinder_path::CylinderPath;
-use kinematics_core::planning::time_scaling::TimeScaling;
+use kinematics_core::planning::time_scaling::{Pace, TimeScaling};
 
 use super::Wanted;
 use super::tracker::Tracker;
@@ -16,8 +16,9 @@ use crate::parameters::MotionParameters;
 #[derive(Clone, Debug)]
 pub(super) struct MoveFollower {
     path: CylinderPath<f32, KNOTS>,
-    ahead: TimeScaling<f32>,
-    now: TimeScaling<f32>,
+    scaling: TimeScaling<f32>,
+    ahead: Pace<f32>,
+    now: Pace<f32>,
     preview_ticks: u32,
     /// Ticks since the request; 0 before.
     elapsed: u32,
@@ -28,8 +29,9 @@ impl MoveFollower {
     pub(super) fn new(p: &MotionParameters, planned: &Move) -> Self {
         Self {
             path: planned.path,
-            ahead: planned.scaling.clone(),
-            now: planned.scaling.clone(),
+            scaling: planned.scaling,
+            ahead: Pace::start(),
+            now: Pace::start(),
             preview_ticks: (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32,
             elapsed: 0,
             tracker: Tracker::new(p),
@@ -39,8 +41,8 @@ impl MoveFollower {
     /// Back to holding: the next move starts over.
     pub(super) fn reset(&mut self) {
         if self.elapsed > 0 {
-            self.ahead.reset();
-            self.now.reset();
+            self.ahead = Pace::start();
+            self.now = Pace::start();
         }
         self.elapsed = 0;
         self.tracker.reset();
@@ -54,9 +56,9 @@ impl MoveFollower {
         if self.now.progress().done {
             return Ok(Wanted::hold(lengths));
         }
-        let ahead = self.ahead.advance(1.0);
+        let ahead = self.scaling.advance(&mut self.ahead, 1.0);
         if self.elapsed >= self.preview_ticks {
-            self.now.advance(1.0);
+            self.scaling.advance(&mut self.now, 1.0);
         }
         self.elapsed = self.elapsed.saturating_add(1);
         let reference = self.path.at(self.now.progress().s).lengths;
