@@ -180,7 +180,7 @@ fn a_straight_move_takes_little_more_than_the_least_time() {
         assert!(ratio >= 0.999, "faster than possible: {ratio}");
         worst = worst.max(ratio);
     }
-    assert!(worst < 1.12, "{worst}");
+    assert!(worst < 1.05, "{worst}");
 }
 
 /// A bound below the least time of a curved path: speeds, flow and accelerations on a fine grid, jerk left aside, by a pass
@@ -244,7 +244,9 @@ fn curved_moves_stay_near_a_bound_that_no_jerk_limited_move_can_reach() {
         .collect();
     ratios.sort_by(f64::total_cmp);
     let (median, worst) = (ratios[ratios.len() / 2], ratios[ratios.len() - 1]);
-    println!("time over the bound without jerk: median {median:.3}, worst {worst:.3}");
+    let most = ratios[ratios.len() * 9 / 10];
+    println!("time over the bound without jerk: median {median:.3}, nine in ten below {most:.3}, worst {worst:.3}");
     assert!(ratios[0] > 0.999, "faster than possible: {}", ratios[0]);
-    assert!(median < 1.5 && worst < 3.0, "{median} {worst}");
+    // A single place that wants little jerk sets it for the whole path: a few moves are far slower than they need to be.
+    assert!(median < 1.25 && most < 2.2, "{median} {most}");
 }

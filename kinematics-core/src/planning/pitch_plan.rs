@@ -25,8 +25,11 @@ const SIDE: i32 = (M / 2) as i32;
 /// Passes, the first included: a free pitch ends on a grid of 1/64/4⁵ turns, 0.005°.
 const PASSES: u8 = 6;
 
+/// How far to either side the search about the minimum-norm profile begins, turns.
+const ABOUT_TURNS: f64 = 0.05;
+
 /// The weight of even steps against the functional, 1/m.
-pub const EVENNESS_PER_M: f64 = 0.01;
+pub const EVENNESS_PER_M: f64 = 0.002;
 
 /// A path move, as asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,6 +202,14 @@ impl<T: Real, const K: usize> PitchPlanner<T, K> {
         self.knot = 1;
     }
 
+    /// Starts over with the finer passes about another profile.
+    fn begin_about(&mut self, pitch_turns: &[T; K]) {
+        self.centres = *pitch_turns;
+        self.half_width = T::from_f64(ABOUT_TURNS);
+        self.pass = 1;
+        self.begin_pass();
+    }
+
     /// Candidate `j` (counted from the middle) about `centre`.
     fn candidate(&self, centre: T, j: i32) -> T {
         let offset = T::from_i32(j) * self.half_width * T::from_f64(1.0 / f64::from(SIDE));
@@ -338,7 +349,8 @@ pub fn profile<T: Real, const K: usize>(
     Some(PitchPlan { pitch_turns: *pitch_turns, cylinders, cost })
 }
 
-/// Plans in one go: the planner's profile or, where that one keeps to everything too and costs less, the minimum-norm one.
+/// Plans in one go. Where the minimum-norm profile keeps to everything too and costs less than the planner's, the finer passes are
+/// done about that one as well, and the cheapest of the three is taken.
 ///
 /// ```
 /// # use kinematics_core::planning::effort::Effort;
@@ -372,8 +384,13 @@ pub fn plan_path<T: Real, const K: usize>(
     let found = found.ok_or(PlanError::NoWay { knot: K - 1 })?;
     let usual = minimum_norm_pitches(machine, &request.path, request.start_pitch_turns)
         .and_then(|pitches| profile(machine, request, effort, &pitches, &allowed));
-    Ok(match usual {
-        Some(usual) if usual.cost < found.cost => usual,
-        _ => found,
-    })
+    let Some(usual) = usual.filter(|usual| usual.cost < found.cost) else { return Ok(found) };
+    planner.begin_about(&usual.pitch_turns);
+    let mut refined = None;
+    for _ in 0..PitchPlanner::<T, K>::STEPS - (K - 1) {
+        // Out of the rule by rounding it may lead nowhere; then it stands as it is.
+        let Ok(step) = planner.step(machine, &allowed) else { return Ok(usual) };
+        refined = step;
+    }
+    Ok(refined.filter(|refined| refined.cost < usual.cost).unwrap_or(usual))
 }

@@ -5,7 +5,7 @@
 //! caps ṡ there, together with speed and flow. From the end backwards the table then keeps the speed
 //! from which braking with a still meets every cap ahead.
 //!
-//! [`crate::planning::time_scaling`] averages ṡ over n ticks, so a cap holds as far before and after its cell as n ticks reach.
+//! [`crate::planning::time_scaling`] averages ṡ over n ticks, so a cap holds as far before and after its cell as n ticks at that speed reach.
 //! Distances are whole numbers, 2³⁶ the path; speeds the same per tick: sums and comparisons are exact.
 
 use crate::Real;
@@ -21,7 +21,7 @@ pub(crate) const WHOLE: u64 = (CELLS as u64) << CELL_BITS;
 /// The longest average, ticks.
 pub(crate) const LONGEST_AVERAGE: usize = 512;
 /// Shares of the limits given to s̈ and s⃛ along the steepest slope, tried in turn.
-const SHARES: [f64; 5] = [0.95, 0.85, 0.7, 0.5, 0.3];
+const SHARES: [f64; 5] = [0.95, 0.8, 0.6, 0.35, 0.15];
 /// What rounding may take of a limit.
 const SLACK: f64 = 1e-4;
 /// No speed is above this, a tick: squares stay far below 2⁶⁴.
@@ -101,9 +101,9 @@ impl SpeedTable {
         if caps.iter().any(|cap| *cap < 4 * choice.step) {
             return None;
         }
-        let reach = (fastest * choice.average as u64).div_ceil(1 << CELL_BITS) as usize + 1;
-        let cap = windowed(&caps, reach, reach).map(|cap| cap * cap);
-        let ahead = windowed(&cap, 0, reach);
+        let reach = |speed: u64| (speed * (choice.average as u64 + 1)).div_ceil(1 << CELL_BITS) as usize;
+        let cap = spread(&caps, reach).map(|cap| cap * cap);
+        let ahead = least_ahead(&cap, reach(fastest));
         let mut entry = [0; CELLS];
         let mut after = 0;
         for (slot, cap) in entry.iter_mut().zip(&cap).rev() {
@@ -205,12 +205,27 @@ fn within_jerk<T: Real>(rate: T, third: T, bent: T, left: T) -> T {
     low
 }
 
-/// The least of each value's neighbours, `before` and `after` of them.
-fn windowed(values: &[u64; CELLS], before: usize, after: usize) -> [u64; CELLS] {
+/// Each cap spread to both sides as far as it moves the path's parameter in an average's time.
+///
+/// That is far enough. Say the mean place s lies in a cell of cap c, and the raw speed keeps to c up to c·T before and after it. If the
+/// window of T ended beyond that, the raw place took T or longer from s on, so all of the window lay beyond s, and so
+/// would its mean; and likewise before.
+fn spread(caps: &[u64; CELLS], reach: impl Fn(u64) -> usize) -> [u64; CELLS] {
+    let mut out = *caps;
+    for (i, cap) in caps.iter().enumerate() {
+        let reach = reach(*cap);
+        for slot in out.iter_mut().skip(i.saturating_sub(reach)).take(core::cmp::min(i, reach) + 1 + reach) {
+            *slot = core::cmp::min(*slot, *cap);
+        }
+    }
+    out
+}
+
+/// The least of each value and those after it, as far as `reach`.
+fn least_ahead(values: &[u64; CELLS], reach: usize) -> [u64; CELLS] {
     let mut out = *values;
     for (i, slot) in out.iter_mut().enumerate() {
-        let window = values.iter().skip(i.saturating_sub(before)).take(core::cmp::min(i, before) + 1 + after);
-        *slot = window.fold(u64::MAX, |least, x| core::cmp::min(least, *x));
+        *slot = values.iter().skip(i).take(reach + 1).fold(u64::MAX, |least, x| core::cmp::min(least, *x));
     }
     out
 }

@@ -179,11 +179,20 @@ impl<T: Real> TimeScaling<T> {
             && within(up, wanted(table.cap_ahead_square(pace.place)));
         let speed = if !fell && could_stay {
             up
-        } else if in_time(last) && (rose || within(last, wanted(table.limit_square(pace.place + last)))) {
+        } else if in_time(last)
+            && (share == 0 || last >= table.step)
+            && (rose || within(last, wanted(table.limit_square(pace.place + last))))
+        {
             last
         } else {
-            // Not slower than a step before the end, or it would never get there.
-            let slowest = if share > 0 { table.step } else { 0 };
+            // Not slower than a step before the end, or it would never get there; nor up to a step soon after a step down.
+            let slowest = if share == 0 {
+                0
+            } else if fell {
+                core::cmp::min(last, table.step)
+            } else {
+                table.step
+            };
             core::cmp::max(last.saturating_sub(table.step), slowest)
         };
         core::cmp::min(speed, left)
