@@ -98,6 +98,9 @@ fn the_maps_stay_within_their_instruction_budgets() {
     // Stated in the docs of `isotropy` and `redundancy`, with room for another compiler.
     assert!(largest("singularity_distance_3") <= 45);
     assert!(largest("redundancy_3") <= 260);
+    assert!(largest("time_scaling_step") <= 1500);
+    assert!(largest("cylinder_path_at") <= 400);
+    assert!(largest("planning_step") <= 150_000);
 }
 
 #[test]
