@@ -88,7 +88,8 @@ pub fn least_effort<T: Real>(
         PitchRule::Free => [T::ZERO, T::ONE],
         bounded => bounded.range(T::ZERO),
     };
-    if !(upper >= lower) {
+    let in_order = upper >= lower;
+    if !in_order {
         return Err(PlanError::Question);
     }
     let search = Search { machine, from, goal, effort };

@@ -141,7 +141,7 @@ impl<T: Real> TimeScaling<T> {
         }
         pace.at = if pace.at + 1 == average { 0 } else { pace.at + 1 };
         pace.place += speed;
-        pace.in_ring = pace.in_ring + speed - leaving;
+        pace.in_ring = (pace.in_ring + speed).saturating_sub(leaving);
         pace.places += pace.in_ring;
         // Sums below 2⁵³ are exact in f64.
         let signed = |new: u64, old: u64| new as f64 - old as f64;
