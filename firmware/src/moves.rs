@@ -109,6 +109,8 @@ impl Move {
     ///
     /// # Errors
     /// [`MoveError`]: nothing has moved.
+    // Not inlined: what planning needs of the stack, an application without a move does not.
+    #[inline(never)]
     pub fn new(machine: &Machine<f32>, p: &MoveParameters, tick_s: f64) -> Result<Self, MoveError> {
         let limits = Limits::new(&MoveLimits {
             speed_mps: p.speed_mps,

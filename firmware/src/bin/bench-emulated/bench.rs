@@ -139,7 +139,11 @@ fn planning(out: &mut Out, stopwatch: &Stopwatch, machine: &Machine<f32>) -> Opt
     let scaling = TimeScaling::new(&path, &limits, 0.001).ok()?;
     let pace = RefCell::new(Pace::start());
     // Every twentieth tick from start to end.
-    let run = |_: f32| (0..19).for_each(|_| drop(scaling.advance(&mut pace.borrow_mut(), 1.0)));
+    let run = |_: f32| {
+        for _ in 0..19 {
+            scaling.advance(&mut pace.borrow_mut(), 1.0);
+        }
+    };
     row(out, stopwatch, "time_scaling_step", run, |()| time_scaling_step(&scaling, &mut pace.borrow_mut()));
     row(out, stopwatch, "cylinder_path_at", |t| t, |s| cylinder_path_at(&path, *s));
     Some(())
