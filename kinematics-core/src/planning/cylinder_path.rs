@@ -202,9 +202,11 @@ fn natural_spline<T: Real, const K: usize>(values: &[T; K], steps: &[T; K]) -> [
     }
     let mut second = [T::ZERO; K];
     let mut next = T::ZERO;
-    for ((m, above), right) in second.iter_mut().zip(above).zip(right).take(K - 1).skip(1).rev() {
-        *m = right - above * next;
-        next = *m;
+    for at in (1..K - 1).rev() {
+        if let (Some(m), Some(above), Some(right)) = (second.get_mut(at), above.get(at), right.get(at)) {
+            *m = *right - *above * next;
+            next = *m;
+        }
     }
     let mut cubics = [Cubic { c: [T::ZERO; 4] }; K];
     let moments = second.iter().zip(second.iter().skip(1));
