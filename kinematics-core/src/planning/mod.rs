@@ -13,6 +13,6 @@ pub mod minimum_norm;
 pub mod move_limits;
 pub mod pitch_plan;
 pub mod pitch_rule;
-pub mod speed_table;
+mod speed_table;
 pub mod time_scaling;
 pub mod tip_path;

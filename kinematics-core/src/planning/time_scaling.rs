@@ -1,6 +1,6 @@
 //! How fast along a path: one common factor ṡ for all cylinders, so that the path is kept exactly.
 //!
-//! Every tick a raw speed goes up, stays or goes down by one step, as [`SpeedTable`] allows; ṡ is its average over the last n
+//! Every tick a raw speed goes up, stays or goes down by one step, as the table of speeds planned beforehand allows; ṡ is its average over the last n
 //! ticks. So |s̈| ≤ a and |s⃛| ≤ a/(n·tick) by construction, provided the raw speed never turns from faster to slower
 //! within n ticks: it goes up only where it could then stay n ticks, and not within n ticks of a step down. All of it is in
 //! whole numbers: nothing drifts, and the last tick stands on the end.
