@@ -7,12 +7,16 @@ use crate::dig::Dig;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
+use crate::moves::Move;
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::supervisor::{Gate, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::Valve;
+
+/// The control period, s; rounded to f32 it is [`crate::TICK_S`].
+const TICK: f64 = 0.001;
 
 /// The controller: stages, the supervisor, and the last valid pose.
 #[derive(Clone, Debug)]
@@ -29,10 +33,10 @@ pub struct Ecu {
 }
 
 impl Ecu {
-    /// Validates the parameters, the dig's travel included, and builds every stage.
+    /// Validates the parameters, the dig's travel included, plans the move, and builds every stage.
     ///
     /// # Errors
-    /// The first parameter at fault, by name and range, or the dig's first violation.
+    /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
@@ -43,11 +47,15 @@ impl Ecu {
         if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));
         }
+        let planned = match &p.planned_move {
+            Some(planned) => Some(Move::new(&machine, planned, TICK).map_err(ParameterError::Move)?),
+            None => None,
+        };
         Ok(Self {
             machine,
             sensing,
             command: Command::new(p.command_timeout_ticks),
-            motion: Motion::new(&p.motion, &p.valves, dig),
+            motion: Motion::new(&p.motion, &p.valves, dig, planned.as_ref()),
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
             tick: 0,

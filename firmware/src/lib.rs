@@ -21,6 +21,7 @@ pub mod frame;
 pub mod io;
 pub mod link;
 pub mod motion;
+pub mod moves;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;

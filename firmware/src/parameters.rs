@@ -7,6 +7,7 @@ use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::dig::DigParameters;
+use crate::moves::{MoveError, MoveParameters, Pitch};
 use crate::travel::Violation;
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
@@ -99,6 +100,8 @@ pub struct Parameters {
     pub motion: MotionParameters,
     /// The dig, where there is one.
     pub dig: Option<DigParameters>,
+    /// The move, where there is one.
+    pub planned_move: Option<MoveParameters>,
 }
 
 /// What is wrong with a parameter record.
@@ -126,6 +129,8 @@ pub enum ParameterError {
     NoSwingCylinder,
     /// The dig leaves reach or stroke.
     Dig(Violation<f32>),
+    /// The move has no plan.
+    Move(MoveError),
 }
 
 impl From<GeometryError> for ParameterError {
@@ -145,6 +150,7 @@ impl fmt::Display for ParameterError {
             Self::NoSwingCylinder => {
                 f.write_str("`swing_sensor` reads a swing cylinder, but the geometry has no `swing` pins")
             }
+            Self::Move(error) => write!(f, "`move`: {error}"),
             Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
         }
     }
@@ -217,7 +223,8 @@ impl Parameters {
         ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
-        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)
+        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
+        self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)
     }
 }
 
@@ -251,5 +258,21 @@ impl DigParameters {
         ordered(("dig.until_s[1]", plunged), ("dig.until_s[2]", end))?;
         within("dig.hold_lead_s", self.hold_lead_s, [0.0, reached])?;
         ordered(("0", 0.0), ("dig.until_s[0]", reached))
+    }
+}
+
+impl MoveParameters {
+    /// Limits and weights are checked where the move is planned.
+    fn validate(&self) -> Result<(), ParameterError> {
+        for place in self.start_m.into_iter().chain(self.target_m) {
+            within("move.start_m, move.target_m", place, [-50.0, 50.0])?;
+        }
+        within("move.start_pitch_deg", self.start_pitch_deg, [-720.0, 720.0])?;
+        within("move.turn_per_knot_deg", self.turn_per_knot_deg, [0.01, 90.0])?;
+        if let Pitch::Bounded { lower_deg, upper_deg } = self.pitch {
+            within("move.lower_deg", lower_deg, [-720.0, self.start_pitch_deg])?;
+            within("move.upper_deg", upper_deg, [self.start_pitch_deg, 720.0])?;
+        }
+        Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod effort;
 pub mod machine;
 mod planar_arm;
 pub mod pose;
@@ -27,6 +28,8 @@ enum Command {
     Pose(pose::PoseArgs),
     /// Show what a machine can do over all of its stroke: workspace, moment arms, sensitivity, isotropy
     Machine(machine::MachineArgs),
+    /// Print what least-effort moves cost against the minimum-norm ones
+    Effort(effort::EffortArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
     match Hil::try_parse_from(&arguments) {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
+        Ok(Hil { command: Command::Effort(args) }) => effort::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.

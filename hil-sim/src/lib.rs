@@ -2,6 +2,7 @@
 //!
 //! - [`machine_file`] — a machine's geometry from TOML;
 //! - [`machine_report`] — what an engineer asks of a machine as a whole;
+//! - [`effort`] — least-effort moves against minimum-norm ones;
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
@@ -13,6 +14,7 @@
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod effort;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;

@@ -1,8 +1,11 @@
-//! Fourth stage: what the operator wants → actuator speeds. One file a mode: [`dig`] follows a trajectory, [`levers`] obeys.
+//! Fourth stage: what the operator wants → actuator speeds. One file a mode: [`dig`] follows a trajectory, [`planned`] a move,
+//! [`levers`] obeys.
 
 mod creep;
 mod dig;
 mod levers;
+mod planned;
+mod tracker;
 
 use kinematics_core::{Cylinders, Machine};
 
@@ -10,10 +13,12 @@ use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
+use crate::moves::Move;
 use crate::parameters::{MotionParameters, ValveDirection};
 
 use dig::DigFollower;
 use levers::Levers;
+use planned::MoveFollower;
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +27,7 @@ pub struct Wanted {
     pub speeds: Speeds,
     /// Where the cylinders should be this tick, m.
     pub reference: Cylinders<f32>,
-    /// 1 + the dig's tick, 0 when not digging.
+    /// 1 + the dig's or move's tick, 0 when following neither.
     pub dig_tick: u32,
 }
 
@@ -34,18 +39,25 @@ impl Wanted {
 }
 
 /// The motion stage.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Motion {
     dig: Option<DigFollower>,
+    planned: Option<MoveFollower>,
     levers: Levers,
     /// The request of the last tick; another one starts over.
     request: Request,
 }
 
 impl Motion {
-    pub(crate) fn new(p: &MotionParameters, valves: &[[ValveDirection; 2]; 4], dig: Option<Dig<f32>>) -> Self {
+    pub(crate) fn new(
+        p: &MotionParameters,
+        valves: &[[ValveDirection; 2]; 4],
+        dig: Option<Dig<f32>>,
+        planned: Option<&Move>,
+    ) -> Self {
         Self {
             dig: dig.map(|dig| DigFollower::new(p, dig)),
+            planned: planned.map(|planned| MoveFollower::new(p, planned)),
             levers: Levers::new(valves, p.smallest_speed_mps),
             request: Request::Neutral,
         }
@@ -56,6 +68,9 @@ impl Motion {
         self.request = Request::Neutral;
         if let Some(dig) = &mut self.dig {
             dig.reset();
+        }
+        if let Some(planned) = &mut self.planned {
+            planned.reset();
         }
     }
 
@@ -80,6 +95,7 @@ impl Motion {
         match intent.request {
             Request::Neutral => Ok(Wanted::hold(lengths)),
             Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
+            Request::Move => self.planned.as_mut().ok_or(Fault::NotConfigured)?.follow(lengths),
             Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
         }
     }

@@ -2,8 +2,10 @@
 
 use firmware::Parameters;
 use firmware::dig::DigParameters;
+use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{Coil, MotionParameters, PositionSensor, Supply, SwingSensor, ValveDirection};
 use kinematics_core::geometry::Stroke;
+use kinematics_core::planning::effort::Piston;
 use kinematics_core::{Machine, PinGeometry, Rotor};
 
 use super::check::within;
@@ -50,16 +52,50 @@ fn dig(file: &file::Dig) -> DigParameters {
     dig
 }
 
+fn planned_move(m: &file::PlannedMove, plant: &[ActuatorModel; 4]) -> MoveParameters {
+    let [_, cylinders @ ..] = plant;
+    let piston = |bore_m, rod_m, count| Piston { bore_m, rod_m, count }.areas_m2();
+    MoveParameters {
+        start_m: [m.start_x_m, m.start_z_m],
+        start_pitch_deg: m.start_pitch_deg,
+        target_m: [m.target_x_m, m.target_z_m],
+        pitch: match (m.pitch, m.lower_deg, m.upper_deg) {
+            (file::PitchRule::Bounded, Some(lower_deg), Some(upper_deg)) => Pitch::Bounded { lower_deg, upper_deg },
+            (file::PitchRule::Fixed, ..) => Pitch::Fixed,
+            _ => Pitch::Free,
+        },
+        turn_per_knot_deg: m.turn_per_knot_deg,
+        weights: [1.0; 3],
+        speed_mps: cylinders.map(|model| model.full_speed.map(|speed| m.speed_share * speed)),
+        acceleration_mps2: [m.acceleration_mps2; 3],
+        jerk_mps3: [m.jerk_mps3; 3],
+        areas_m2: [
+            piston(m.boom_bore_m, m.boom_rod_m, m.boom_cylinders),
+            piston(m.arm_bore_m, m.arm_rod_m, 1),
+            piston(m.bucket_bore_m, m.bucket_rod_m, 1),
+        ],
+        flow_m3ps: m.flow_lpm / 60e3,
+    }
+}
+
 /// The one task of the file.
 fn task(file: &mut ScenarioFile) -> Result<Task, String> {
     let moves = std::mem::take(&mut file.lever);
+    if file.planned_move.is_some() {
+        let alone = file.dig.is_none() && moves.is_empty() && file.start.is_none();
+        return if alone {
+            Ok(Task::Move)
+        } else {
+            Err("`dig`, `lever` and `start` must be left out with `move`".to_owned())
+        };
+    }
     match (&file.dig, moves.is_empty(), file.start) {
         (Some(_), true, None) => Ok(Task::Dig),
         (Some(_), true, Some(_)) => Err("`start` must be left out with `dig`, which says where it starts".to_owned()),
         (None, false, Some(start)) => Ok(Task::Levers { start, moves }),
         (None, false, None) => Err("`start` is missing: where the machine stands before the levers move".to_owned()),
         (Some(_), false, _) => Err("either `dig` or `lever`, not both".to_owned()),
-        (None, true, _) => Err("one of `dig` and `lever` is needed: what the operator does".to_owned()),
+        (None, true, _) => Err("one of `dig`, `lever` and `move` is needed: what the operator does".to_owned()),
     }
 }
 
@@ -136,6 +172,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             following_error_m: m.following_error_m as f32,
         },
         dig: file.dig.as_ref().map(dig),
+        planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {

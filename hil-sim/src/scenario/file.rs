@@ -6,7 +6,10 @@ use super::event::Event;
 use super::task::{LeverMove, Start};
 use crate::toml_text::{Tag, strictly};
 
-const TAGS: [Tag; 1] = [("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
+const TAGS: [Tag; 2] = [
+    ("dig.reading", "`\"as_meant\"` or `\"as_published\"`"),
+    ("move.pitch", "`\"free\"`, `\"fixed\"` or `\"bounded\"`"),
+];
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -17,6 +20,8 @@ pub(super) struct ScenarioFile {
     pub(super) duration_s: f64,
     pub(super) operator: Operator,
     pub(super) dig: Option<Dig>,
+    #[serde(rename = "move")]
+    pub(super) planned_move: Option<PlannedMove>,
     pub(super) start: Option<Start>,
     #[serde(default)]
     pub(super) lever: Vec<LeverMove>,
@@ -62,6 +67,44 @@ pub(super) struct Dig {
     pub(super) reach_until_s: f64,
     pub(super) plunge_until_s: f64,
     pub(super) scoop_until_s: f64,
+}
+
+/// What the bucket may do during a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum PitchRule {
+    /// Anything.
+    Free,
+    /// Keep the start's pitch.
+    Fixed,
+    /// Between `lower_deg` and `upper_deg`.
+    Bounded,
+}
+
+/// A straight move with the least cylinder travel.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlannedMove {
+    pub(super) start_x_m: f64,
+    pub(super) start_z_m: f64,
+    pub(super) start_pitch_deg: f64,
+    pub(super) target_x_m: f64,
+    pub(super) target_z_m: f64,
+    pub(super) pitch: PitchRule,
+    pub(super) lower_deg: Option<f64>,
+    pub(super) upper_deg: Option<f64>,
+    pub(super) turn_per_knot_deg: f64,
+    pub(super) speed_share: f64,
+    pub(super) acceleration_mps2: f64,
+    pub(super) jerk_mps3: f64,
+    pub(super) boom_bore_m: f64,
+    pub(super) boom_rod_m: f64,
+    pub(super) boom_cylinders: u8,
+    pub(super) arm_bore_m: f64,
+    pub(super) arm_rod_m: f64,
+    pub(super) bucket_bore_m: f64,
+    pub(super) bucket_rod_m: f64,
+    pub(super) flow_lpm: f64,
 }
 
 #[derive(Clone, Debug, Deserialize)]

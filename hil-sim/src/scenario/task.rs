@@ -8,6 +8,8 @@ use serde::Deserialize;
 pub enum Task {
     /// Asks for the dig of the parameters; the machine stands at its start.
     Dig,
+    /// Asks for the planned move of the parameters; the machine stands at its start.
+    Move,
     /// Moves the levers.
     Levers {
         /// Where the machine stands at first.
@@ -68,6 +70,7 @@ impl Task {
     pub fn request(&self) -> Request {
         match self {
             Self::Dig => Request::Dig,
+            Self::Move => Request::Move,
             Self::Levers { .. } => Request::Levers,
         }
     }

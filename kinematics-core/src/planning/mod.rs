@@ -1,12 +1,28 @@
-//! From a pose to a point: planning on a planar chain of N joints, one iteration at a time and a bounded number of them.
+//! Planning: which path, which configuration, how fast, and what to keep clear of. Fixed work and memory; not finding an answer is
+//! a value. The mathematics and its sources stand in `docs/planning.md`.
 //!
+//! Park 2008 on a planar chain, for planning ahead (its (14) is an angle):
 //! - [`obstacle`] — a point to keep away from, and the arm's point nearest to it;
-//! - [`park`] — Park 2008, each equation in one place;
+//! - [`park`] — the paper, each equation in one place;
 //! - [`planner`] — one iteration of it, and the run to a point.
 //!
-//! `docs/planning.md` says what the paper leaves open and what is chosen here. For planning ahead, not for the control loop:
-//! Park's (14) is an angle.
+//! Least effort and timing of moves:
+//! - [`effort`] — what a move costs: cylinder travel or the pump's energy;
+//! - [`tip_path`], [`pitch_rule`] — where the tip goes, and what the bucket may do meanwhile;
+//! - [`least_effort`] — the cheapest end of a move from point to point; [`pitch_plan`] — the cheapest pitches along a path,
+//!   against [`minimum_norm`];
+//! - [`cylinder_path`] — a smooth path through the planned cylinder lengths; [`time_scaling`] — how fast along it.
 
+pub mod cylinder_path;
+pub mod effort;
+pub mod least_effort;
+pub mod minimum_norm;
+pub mod move_limits;
 pub mod obstacle;
 pub mod park;
+pub mod pitch_plan;
+pub mod pitch_rule;
 pub mod planner;
+mod speed_table;
+pub mod time_scaling;
+pub mod tip_path;
