@@ -8,6 +8,7 @@
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
+//! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
@@ -20,5 +21,6 @@ pub mod plant;
 pub mod report;
 pub mod run;
 pub mod scenario;
+pub mod scenes;
 mod toml_text;
 pub mod travel;

@@ -51,6 +51,7 @@ pub mod joint_range;
 pub mod machine;
 pub mod matrix;
 pub mod payload;
+pub mod planning;
 pub mod rates;
 mod real;
 pub mod redundancy;

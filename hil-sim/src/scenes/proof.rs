@@ -1,0 +1,40 @@
+//! What an independent search says of a target that was not reached.
+
+use kinematics_core::{PlaneTip, Rotor};
+use serde::Serialize;
+
+use super::generate::{Kit, Scene};
+
+/// Pitches tried: fifteen times as dense as the planner's.
+const PITCHES: u32 = 960;
+
+/// The search's word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proof {
+    /// None of the pitches gives a pose within the stroke that is clear by the stop distance.
+    NoClearPose,
+    /// There is a clear pose: the planner owes an answer.
+    ClearPose,
+}
+
+impl Kit {
+    /// Looks for a clear pose at the target.
+    pub(super) fn prove(&self, scene: &Scene) -> Proof {
+        let t = scene.target;
+        let reach = t.x.hypot(t.y);
+        let swing = Rotor { cos: t.x / reach, sin: t.y / reach };
+        let clear = (0..PITCHES).any(|i| {
+            let tip = PlaneTip {
+                reach,
+                height: t.z,
+                pitch: Rotor::from_turns(f64::from(i) / f64::from(PITCHES)),
+            };
+            self.machine.tip_to_joints(&tip).is_ok_and(|joints| {
+                self.machine.joints_to_cylinders(&joints).is_ok()
+                    && self.clearance(&[swing, joints.boom, joints.arm, joints.bucket], &scene.obstacles) > self.stop_m()
+            })
+        });
+        if clear { Proof::ClearPose } else { Proof::NoClearPose }
+    }
+}
