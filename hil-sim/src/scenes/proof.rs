@@ -23,16 +23,15 @@ impl Kit {
     pub(super) fn prove(&self, scene: &Scene) -> Proof {
         let t = scene.target;
         let reach = t.x.hypot(t.y);
-        let swing = Rotor { cos: t.x / reach, sin: t.y / reach };
-        let clear = (0..PITCHES).any(|i| {
-            let tip = PlaneTip {
-                reach,
-                height: t.z,
-                pitch: Rotor::from_turns(f64::from(i) / f64::from(PITCHES)),
-            };
-            self.machine.tip_to_joints(&tip).is_ok_and(|joints| {
-                self.machine.joints_to_cylinders(&joints).is_ok()
-                    && self.clearance(&[swing, joints.boom, joints.arm, joints.bucket], &scene.obstacles) > self.stop_m()
+        let ahead = Rotor { cos: t.x / reach, sin: t.y / reach };
+        let behind = Rotor { cos: -ahead.cos, sin: -ahead.sin };
+        let clear = (0..PITCHES).flat_map(|i| [(i, ahead, reach), (i, behind, -reach)]).any(|(i, swing, reach)| {
+            let pitch = Rotor::from_turns(f64::from(i) / f64::from(PITCHES));
+            self.machine.tip_to_joints(&PlaneTip { reach, height: t.z, pitch }).is_ok_and(|joints| {
+                let within = self.machine.joints_to_cylinders(&joints).is_ok()
+                    && self.machine.swing_cylinder().is_none_or(|cylinder| cylinder.length(swing).is_ok());
+                let joints = [swing, joints.boom, joints.arm, joints.bucket];
+                within && self.clearance(&joints, &scene.obstacles) > self.stop_m()
             })
         });
         if clear { Proof::ClearPose } else { Proof::NoClearPose }

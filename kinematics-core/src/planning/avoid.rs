@@ -14,7 +14,7 @@
 
 use core::fmt;
 
-use super::hull::{Hull, Near, Placed, Sphere};
+use super::hull::{Hull, Near, Placed, SEGMENTS, Sphere};
 use super::joint_line::{Travel, turn, turned};
 use crate::geometry::PinGeometry;
 use crate::sector::Sector;
@@ -219,7 +219,7 @@ impl<T: Real> Avoid<T> {
         let near = nearest(&self.hull.place(joints), obstacles);
         let mobility = self.speeds.map(|speed| speed * speed);
         for _ in 0..PASSES {
-            for near in &near {
+            for near in near.iter().flatten() {
                 self.give_way(near, &mobility, &mut rates);
             }
             self.keep_travel(&here, &mut rates);
@@ -282,10 +282,10 @@ impl<T: Real> Avoid<T> {
 
     /// One factor for all joints: within the speed limits, and closing in on nothing faster than it may.
     #[inline(always)]
-    fn slow_down<const N: usize>(&self, near: &[Near<T>; N], rates: &mut [T; 4]) {
+    fn slow_down<const N: usize>(&self, near: &[[Near<T>; SEGMENTS]; N], rates: &mut [T; 4]) {
         let pace = self.pace(rates);
         let mut factor = if pace > T::ONE { T::ONE / pace } else { T::ONE };
-        for near in near {
+        for near in near.iter().flatten() {
             let (closing, allowed) = (-dot(&near.row, rates), self.approach(near));
             if closing > T::ZERO && closing * factor > allowed {
                 factor = if allowed > T::ZERO { allowed / closing } else { T::ZERO };
@@ -303,13 +303,13 @@ pub fn advanced<T: Real>(joints: &[Rotor<T>; 4], rates: &[T; 4], dt: T) -> [Roto
 }
 
 #[inline(always)]
-fn nearest<T: Real, const N: usize>(placed: &Placed<T>, obstacles: &[Sphere<T>; N]) -> [Near<T>; N] {
-    obstacles.each_ref().map(|sphere| placed.nearest(sphere))
+fn nearest<T: Real, const N: usize>(placed: &Placed<T>, obstacles: &[Sphere<T>; N]) -> [[Near<T>; SEGMENTS]; N] {
+    obstacles.each_ref().map(|sphere| placed.near(sphere))
 }
 
 #[inline(always)]
-fn smallest<T: Real, const N: usize>(near: &[Near<T>; N]) -> T {
-    near.iter().fold(T::from_i32(1000), |least, near| if near.distance < least { near.distance } else { least })
+fn smallest<T: Real, const N: usize>(near: &[[Near<T>; SEGMENTS]; N]) -> T {
+    near.iter().flatten().fold(T::from_i32(1000), |least, near| if near.distance < least { near.distance } else { least })
 }
 
 fn rounded<T: Real>(travel: Travel<f64>) -> Travel<T> {

@@ -50,8 +50,11 @@ enum Link {
     Bucket,
 }
 
+/// So many segments.
+pub const SEGMENTS: usize = 6;
+
 /// The segments' ends: boom in two parts about its knee, boom cylinder, arm cylinder, arm, bucket.
-const ENDS: [(Link, Link); 6] = [
+const ENDS: [(Link, Link); SEGMENTS] = [
     (Link::Boom, Link::Boom),
     (Link::Boom, Link::Boom),
     (Link::Body, Link::Boom),
@@ -89,7 +92,7 @@ pub struct Hull<T> {
     arm_end: Vec2<T>,
     bucket_start: Vec2<T>,
     bucket_m: T,
-    radii: [T; 6],
+    radii: [T; SEGMENTS],
 }
 
 /// The hull at one pose.
@@ -99,8 +102,8 @@ pub struct Placed<T> {
     swing: Rotor<T>,
     arm_pin: Vec2<T>,
     bucket_pin: Vec2<T>,
-    segments: [[Vec2<T>; 2]; 6],
-    radii: [T; 6],
+    segments: [[Vec2<T>; 2]; SEGMENTS],
+    radii: [T; SEGMENTS],
 }
 
 /// The nearest place of the hull to a sphere: Park 2008's critical point.
@@ -238,55 +241,66 @@ impl<T: Real> Placed<T> {
         self.segments.iter().copied().zip(self.radii)
     }
 
-    /// The nearest place to a sphere.
+    /// The nearest place of each segment to a sphere. Two segments may be equally near: a step that heeds one of them alone closes in
+    /// with the other, turn and turn about.
     #[inline(always)]
-    pub fn nearest(&self, sphere: &Sphere<T>) -> Near<T> {
-        let (swing, a1) = (self.swing, self.a1);
+    pub fn near(&self, sphere: &Sphere<T>) -> [Near<T>; SEGMENTS] {
+        let swing = self.swing;
         // The centre seen from the boom pin, in the frame that turns with the swing.
-        let centre = Vec2::new(sphere.x * swing.cos + sphere.y * swing.sin - a1, sphere.z);
+        let centre = Vec2::new(sphere.x * swing.cos + sphere.y * swing.sin - self.a1, sphere.z);
         let lateral = sphere.y * swing.cos - sphere.x * swing.sin;
-        let lateral_square = lateral * lateral;
-        let mut best = T::ZERO;
-        let mut found: Option<(T, T, &[Vec2<T>; 2], (Link, Link))> = None;
-        for ((segment, &radius), &links) in self.segments.iter().zip(&self.radii).zip(&ENDS) {
-            let [from, to] = *segment;
-            let (along, start) = (to - from, centre - from);
-            let wanted = start.dot(along) / (along.norm_squared() + T::from_f64(1e-12));
-            let share = if wanted > T::ONE {
-                T::ONE
-            } else if wanted > T::ZERO {
-                wanted
+        let mut near = [Near { distance: T::ZERO, row: [T::ZERO; 4] }; SEGMENTS];
+        for (((near, segment), &radius), &links) in near.iter_mut().zip(&self.segments).zip(&self.radii).zip(&ENDS) {
+            *near = self.near_segment(segment, links, radius + sphere.radius, centre, lateral);
+        }
+        near
+    }
+
+    /// The nearest place to a sphere.
+    #[inline]
+    pub fn nearest(&self, sphere: &Sphere<T>) -> Near<T> {
+        let [first, rest @ ..] = self.near(sphere);
+        rest.into_iter().fold(first, |best, near| if near.distance < best.distance { near } else { best })
+    }
+
+    #[inline(always)]
+    fn near_segment(
+        &self,
+        &[from, to]: &[Vec2<T>; 2],
+        (first, last): (Link, Link),
+        radii: T,
+        centre: Vec2<T>,
+        lateral: T,
+    ) -> Near<T> {
+        let (along, start) = (to - from, centre - from);
+        let wanted = start.dot(along) / (along.norm_squared() + T::from_f64(1e-12));
+        let share = if wanted > T::ONE {
+            T::ONE
+        } else if wanted > T::ZERO {
+            wanted
+        } else {
+            T::ZERO
+        };
+        let point = from + along.scale(share);
+        let apart = point - centre;
+        let length = (apart.norm_squared() + lateral * lateral).sqrt_of_magnitude();
+        let inverse = T::ONE / (length + T::from_f64(1e-12));
+        let normal = apart.scale(inverse);
+        let mut planar = [T::ZERO; 3];
+        let pivots = [Vec2::new(T::ZERO, T::ZERO), self.arm_pin, self.bucket_pin];
+        for ((entry, pivot), link) in planar.iter_mut().zip(pivots).zip([Link::Boom, Link::Arm, Link::Bucket]) {
+            // A point turning about a pivot moves at right angles to its lever: n·(ω × l) = ω·(l × n).
+            *entry = if first >= link {
+                (point - pivot).cross(normal)
+            } else if last >= link {
+                // Only the far end turns.
+                (to - pivot).cross(normal) * share
             } else {
                 T::ZERO
             };
-            let length = ((start - along.scale(share)).norm_squared() + lateral_square).sqrt_of_magnitude();
-            let distance = length - radius;
-            if found.is_none() || distance < best {
-                best = distance;
-                found = Some((share, length, segment, links));
-            }
         }
-        let mut row = [T::ZERO; 4];
-        if let Some((share, length, &[from, to], (first, last))) = found {
-            let (rest, inverse) = (T::ONE - share, T::ONE / (length + T::from_f64(1e-12)));
-            let point = from.scale(rest) + to.scale(share);
-            let normal = (point - centre).scale(inverse);
-            let pivots = [Vec2::new(T::ZERO, T::ZERO), self.arm_pin, self.bucket_pin];
-            let [by_swing, planar @ ..] = &mut row;
-            *by_swing = -(lateral * inverse) * (point.x + a1);
-            for ((entry, pivot), link) in planar.iter_mut().zip(pivots).zip([Link::Boom, Link::Arm, Link::Bucket]) {
-                // A point turning about a pivot moves at right angles to its lever: n·(ω × l) = ω·(l × n).
-                let mut lever = Vec2::new(T::ZERO, T::ZERO);
-                if first >= link {
-                    lever = lever + (from - pivot).scale(rest);
-                }
-                if last >= link {
-                    lever = lever + (to - pivot).scale(share);
-                }
-                *entry = lever.cross(normal);
-            }
-        }
-        Near { distance: best - sphere.radius, row }
+        let [boom, arm, bucket] = planar;
+        Near { distance: length - radii, row: [-(lateral * inverse) * (point.x + self.a1), boom, arm, bucket] }
     }
 }
 

@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn the_angle_is_monotone_odd_and_right_to_a_hundredth() {
         let mut last = -4.0;
-        for i in -180..=180 {
+        for i in -180..=180_i32 {
             let degrees = f64::from(i);
             let found = turn(Rotor::<f64>::from_degrees(degrees));
             let wrong = found - degrees.to_radians();

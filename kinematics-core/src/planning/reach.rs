@@ -1,7 +1,7 @@
 //! The way to a target: which of the poses that reach it, which way round the obstacles, and the step along it.
 //!
 //! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about one [`Avoid::step`]'s cost.
-//! 1. *Poses*: [`PITCHES`] bucket pitches at the target, each by the closed-form inverse; kept are the nearest clear one and
+//! 1. *Poses*: [`PITCHES`] bucket pitches at the target, before the swing axis and behind it, each by the closed-form inverse; kept are the nearest clear one and
 //!    the clearest. None clear is [`Progress::Blocked`].
 //! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing; kept is the nearest clear one of each arm angle.
 //! 3. *Routes*: all of `route.rs`, by their time at the speed limits, the direct one first.
@@ -190,9 +190,15 @@ impl<T: Real, const N: usize> Reach<T, N> {
 
     fn try_pitch(&mut self, pitch: usize) {
         let radial = Vec2::new(self.target.x, self.target.y);
-        let Some(swing) = radial.direction() else { return self.end(Progress::Blocked) };
+        let Some(ahead) = radial.direction() else { return self.end(Progress::Blocked) };
         let turns = T::from_i32(pitch as i32) * T::from_f64(1.0 / PITCHES as f64);
-        let tip = PlaneTip { reach: radial.norm(), height: self.target.z, pitch: Rotor::from_turns(turns) };
+        // In the second round with the tip behind the swing axis.
+        let (swing, reach) = if pitch < PITCHES {
+            (ahead, radial.norm())
+        } else {
+            (Rotor { cos: -ahead.cos, sin: -ahead.sin }, -radial.norm())
+        };
+        let tip = PlaneTip { reach, height: self.target.z, pitch: Rotor::from_turns(turns) };
         if let Ok(found) = self.chain.joints(&tip) {
             let joints = [swing, found.boom, found.arm, found.bucket];
             let aim = self.avoid.aim(&joints);
@@ -207,7 +213,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
                 }
             }
         }
-        if pitch + 1 < PITCHES {
+        if pitch + 1 < 2 * PITCHES {
             self.phase = Phase::Poses { pitch: pitch + 1 };
         } else if self.nearest.is_some() {
             self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
