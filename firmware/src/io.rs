@@ -16,6 +16,8 @@ pub enum Request {
     Dig,
     /// Move each actuator as its lever says.
     Levers,
+    /// Bring the tip to the target of the parameters, past their obstacles.
+    Reach,
 }
 
 /// Speeds of the four actuators: cylinders m/s, extending positive; a swing motor rad/s, counter-clockwise positive, a swing

@@ -1,19 +1,22 @@
-//! Fourth stage: what the operator wants → actuator speeds. One file a mode: [`dig`] follows a trajectory, [`levers`] obeys.
+//! Fourth stage: what the operator wants → actuator speeds. One file a mode: [`dig`] follows a trajectory, [`levers`] obeys,
+//! [`reach`] goes to a target past obstacles.
 
 mod creep;
 mod dig;
 mod levers;
+mod reach;
 
-use kinematics_core::{Cylinders, Machine};
+use kinematics_core::{Cylinders, Machine, PinGeometry, Pose};
 
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
-use crate::parameters::{MotionParameters, ValveDirection};
+use crate::parameters::{ParameterError, Parameters};
 
 use dig::DigFollower;
 use levers::Levers;
+use reach::ReachFollower;
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,17 +41,29 @@ impl Wanted {
 pub struct Motion {
     dig: Option<DigFollower>,
     levers: Levers,
+    reach: Option<ReachFollower>,
     /// The request of the last tick; another one starts over.
     request: Request,
 }
 
 impl Motion {
-    pub(crate) fn new(p: &MotionParameters, valves: &[[ValveDirection; 2]; 4], dig: Option<Dig<f32>>) -> Self {
-        Self {
-            dig: dig.map(|dig| DigFollower::new(p, dig)),
-            levers: Levers::new(valves, p.smallest_speed_mps),
+    /// Of validated parameters.
+    ///
+    /// # Errors
+    /// What planning past obstacles lacks.
+    pub(crate) fn new(p: &Parameters, machine: &Machine<f32>, dig: Option<Dig<f32>>) -> Result<Self, ParameterError> {
+        let (valves, smallest) = (&p.valves, p.motion.smallest_speed_mps);
+        let geometry: &PinGeometry = &p.geometry;
+        let reach = match &p.reach {
+            Some(reach) => Some(ReachFollower::new(reach, geometry, machine, valves, smallest)?),
+            None => None,
+        };
+        Ok(Self {
+            dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
+            levers: Levers::new(valves, smallest),
+            reach,
             request: Request::Neutral,
-        }
+        })
     }
 
     /// Back to holding: whatever is asked for next starts over.
@@ -56,6 +71,9 @@ impl Motion {
         self.request = Request::Neutral;
         if let Some(dig) = &mut self.dig {
             dig.reset();
+        }
+        if let Some(reach) = &mut self.reach {
+            reach.reset();
         }
     }
 
@@ -68,6 +86,7 @@ impl Motion {
         machine: &Machine<f32>,
         running: bool,
         intent: &Intent,
+        pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         if !running || intent.request != self.request {
@@ -80,6 +99,7 @@ impl Motion {
         match intent.request {
             Request::Neutral => Ok(Wanted::hold(lengths)),
             Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
+            Request::Reach => self.reach.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, pose, lengths),
             Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
         }
     }

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use super::print;
 use super::progress::Progress;
 use crate::machine_file::MachineFile;
-use crate::scenes::{Kit, Outcome, Tally};
+use crate::report::write_scene;
+use crate::scenes::{Kit, Outcome, Sample, Tally};
 
 /// Arguments of `hil scenes`.
 #[derive(Debug, Args)]
@@ -24,6 +25,12 @@ pub struct ScenesArgs {
     /// Seed of all scenes
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Play and draw this one scene of the first machine
+    #[arg(long, value_name = "NUMBER")]
+    scene: Option<u64>,
+    /// Folder of its page [default: report/scene-MACHINE-NUMBER]
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
     /// Write the report as JSON to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
@@ -58,11 +65,19 @@ fn scenes(args: &ScenesArgs) -> Result<usize, AnyError> {
             Ok((file.name.clone(), Kit::new(&file.geometry)?))
         })
         .collect::<Result<Vec<_>, AnyError>>()?;
+    if let (Some(number), Some((name, kit))) = (args.scene, kits.first()) {
+        draw(args, name, kit, number)?;
+        return Ok(0);
+    }
     let mut tallies = Vec::new();
     for (name, kit) in &kits {
         let tally = Tally::of(name, &play(args, name, kit));
         let table = tally.to_table();
-        if args.json.as_deref() == Some(Path::new("-")) { eprint!("{table}") } else { print(&table)? }
+        if args.json.as_deref() == Some(Path::new("-")) {
+            eprint!("{table}")
+        } else {
+            print(&table)?
+        }
         tallies.push(tally);
     }
     if let Some(file) = &args.json {
@@ -74,6 +89,23 @@ fn scenes(args: &ScenesArgs) -> Result<usize, AnyError> {
         }
     }
     Ok(tallies.iter().map(|tally| tally.collisions).sum())
+}
+
+/// Plays one scene and draws it.
+fn draw(args: &ScenesArgs, name: &str, kit: &Kit, number: u64) -> Result<(), AnyError> {
+    let scene = kit.scene(args.seed, number);
+    let mut samples = Vec::new();
+    let outcome = kit.play(&scene, |sample| samples.push(sample));
+    if samples.is_empty() {
+        let clearance_m = kit.clearance(&scene.start, &scene.obstacles);
+        samples.push(Sample { time_s: 0.0, joints: scene.start, clearance_m });
+    }
+    let folder = args.report.clone().unwrap_or_else(|| Path::new("report").join(format!("scene-{name}-{number}")));
+    write_scene(name, kit, &scene, &samples, &outcome, &folder)
+        .map_err(|e| format!("cannot write {}: {e}", folder.display()))?;
+    print(&(serde_json::to_string_pretty(&outcome)? + "\n"))?;
+    eprintln!("drawn in {}", folder.join("scene.html").display());
+    Ok(())
 }
 
 fn play(args: &ScenesArgs, name: &str, kit: &Kit) -> Vec<Outcome> {

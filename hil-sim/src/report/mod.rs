@@ -13,6 +13,7 @@ mod figures;
 mod html;
 mod machine;
 mod run;
+mod scene;
 mod series;
 mod table;
 #[cfg(test)]
@@ -21,6 +22,7 @@ mod tests;
 pub use dig::draw_only;
 pub use machine::write_machine;
 pub use run::write;
+pub use scene::write_scene;
 pub use table::table;
 
 /// Nobody shall take a report for proof of a machine.

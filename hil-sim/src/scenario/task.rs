@@ -15,6 +15,11 @@ pub enum Task {
         /// The moves; where several are under way their deflections add up.
         moves: Vec<LeverMove>,
     },
+    /// Asks for the target of the parameters.
+    Reach {
+        /// Where the machine stands at first.
+        start: Start,
+    },
 }
 
 /// Where the machine stands at first.
@@ -69,6 +74,7 @@ impl Task {
         match self {
             Self::Dig => Request::Dig,
             Self::Levers { .. } => Request::Levers,
+            Self::Reach { .. } => Request::Reach,
         }
     }
 

@@ -77,9 +77,13 @@ impl Kit {
         let g = &self.geometry;
         let mut along = |stroke: kinematics_core::geometry::Stroke| {
             // A per mille from the ends: a pose on the very end may lie beyond it in f32.
-            dice.between(stroke.min_m + 1e-3 * (stroke.max_m - stroke.min_m), stroke.max_m - 1e-3 * (stroke.max_m - stroke.min_m))
+            dice.between(
+                stroke.min_m + 1e-3 * (stroke.max_m - stroke.min_m),
+                stroke.max_m - 1e-3 * (stroke.max_m - stroke.min_m),
+            )
         };
-        let cylinders = Cylinders { boom: along(g.boom.stroke), arm: along(g.arm.stroke), bucket: along(g.bucket.stroke) };
+        let cylinders =
+            Cylinders { boom: along(g.boom.stroke), arm: along(g.arm.stroke), bucket: along(g.bucket.stroke) };
         let swing = match (self.machine.swing_cylinder(), g.swing) {
             (Some(cylinder), Some(pins)) => cylinder.rotor(along(pins.stroke)).unwrap_or(Rotor::IDENTITY),
             _ => Rotor::from_turns(dice.unit() - 0.5),

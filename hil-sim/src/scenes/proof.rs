@@ -5,14 +5,14 @@ use serde::Serialize;
 
 use super::generate::{Kit, Scene};
 
-/// Pitches tried: fifteen times as dense as the planner's.
-const PITCHES: u32 = 960;
+/// Pitches tried: three times as dense as the planner's finest.
+const PITCHES: u32 = 1440;
 
 /// The search's word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proof {
-    /// None of the pitches gives a pose within the stroke that is clear by the stop distance.
+    /// None of the pitches gives a pose within the stroke that is clear by what the planner asks for, 1.02 of the stop distance.
     NoClearPose,
     /// There is a clear pose: the planner owes an answer.
     ClearPose,
@@ -31,7 +31,7 @@ impl Kit {
                 let within = self.machine.joints_to_cylinders(&joints).is_ok()
                     && self.machine.swing_cylinder().is_none_or(|cylinder| cylinder.length(swing).is_ok());
                 let joints = [swing, joints.boom, joints.arm, joints.bucket];
-                within && self.clearance(&joints, &scene.obstacles) > self.stop_m()
+                within && self.clearance(&joints, &scene.obstacles) > 1.02 * self.stop_m()
             })
         });
         if clear { Proof::ClearPose } else { Proof::NoClearPose }

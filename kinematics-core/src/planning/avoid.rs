@@ -75,13 +75,7 @@ impl AvoidParameters {
     /// assert_eq!(AvoidParameters::of_reach(10.0, [1.0; 4]).stop_m, 0.1);
     /// ```
     pub fn of_reach(reach_m: f64, speeds_rad_s: [f64; 4]) -> Self {
-        Self {
-            speeds_rad_s,
-            stop_m: 0.01 * reach_m,
-            approach_s: 0.3,
-            settle_s: 0.25,
-            trusted_mps: 0.02 * reach_m,
-        }
+        Self { speeds_rad_s, stop_m: 0.01 * reach_m, approach_s: 0.3, settle_s: 0.25, trusted_mps: 0.02 * reach_m }
     }
 }
 
@@ -309,7 +303,9 @@ fn nearest<T: Real, const N: usize>(placed: &Placed<T>, obstacles: &[Sphere<T>; 
 
 #[inline(always)]
 fn smallest<T: Real, const N: usize>(near: &[[Near<T>; SEGMENTS]; N]) -> T {
-    near.iter().flatten().fold(T::from_i32(1000), |least, near| if near.distance < least { near.distance } else { least })
+    near.iter()
+        .flatten()
+        .fold(T::from_i32(1000), |least, near| if near.distance < least { near.distance } else { least })
 }
 
 fn rounded<T: Real>(travel: Travel<f64>) -> Travel<T> {

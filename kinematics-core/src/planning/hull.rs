@@ -320,9 +320,11 @@ mod tests {
         let hull = hull();
         for i in 0..400 {
             let f = f64::from(i);
-            let degrees = [20.0 * (f * 0.7).sin(), 20.0 + 30.0 * (f * 1.3).sin(), -80.0 + 45.0 * (f * 2.1).sin(), -60.0];
+            let degrees =
+                [20.0 * (f * 0.7).sin(), 20.0 + 30.0 * (f * 1.3).sin(), -80.0 + 45.0 * (f * 2.1).sin(), -60.0];
             let joints = degrees.map(Rotor::from_degrees);
-            let ball = Sphere { x: 2.0 + (f * 0.37).sin(), y: (f * 0.53).cos(), z: (f * 0.91).sin() * 1.5, radius: 0.2 };
+            let ball =
+                Sphere { x: 2.0 + (f * 0.37).sin(), y: (f * 0.53).cos(), z: (f * 0.91).sin() * 1.5, radius: 0.2 };
             let near = hull.place(&joints).nearest(&ball);
             for (joint, slope) in near.row.into_iter().enumerate() {
                 let at = |by: f64| {

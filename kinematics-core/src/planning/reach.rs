@@ -8,8 +8,8 @@
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
 //!
-//! Then the same step follows it at the loop's rate. A step that gets stuck all the same plans anew from where it stands,
-//! [`REPLANS`] times at most: [`Progress::NotConverged`].
+//! Then the same step follows it at the loop's rate. A step that gets stuck all the same plans anew from where it stands and takes
+//! the next route that arrives, [`REPLANS`] times at most: [`Progress::NotConverged`].
 
 use super::avoid::{Aim, Avoid, Step, advanced};
 use super::hull::Sphere;
@@ -17,8 +17,9 @@ use super::route::{Bearing, Map, POSTURES, ROUTES, Route};
 use crate::chain::Chain;
 use crate::{PlaneTip, Real, Rotor, Vec2};
 
-/// Bucket pitches tried at the target.
+/// Bucket pitches tried at the target, and as many times more where none of them was clear.
 pub const PITCHES: usize = 64;
+const FINER: usize = 8;
 /// Postures tried for passing.
 pub const GRID: usize = 5 * POSTURES * 3;
 /// Plannings after the first.
@@ -80,7 +81,7 @@ struct Along<T> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase<T, const N: usize> {
-    Poses { pitch: usize },
+    Poses { pitch: usize, of: usize },
     Postures { index: usize, best: [Option<Pose<T>>; POSTURES] },
     Rank { number: usize },
     Rehearse { along: Along<T>, joints: [Rotor<T>; 4], steps: u32 },
@@ -105,6 +106,8 @@ pub struct Reach<T, const N: usize> {
     /// Times of all routes, s; negative for none.
     times: [T; ROUTES],
     replans: u8,
+    /// Routes that arrived in rehearsal and are yet passed over: as many as got stuck before.
+    passed_over: u8,
 }
 
 /// What a tick says.
@@ -127,7 +130,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             target,
             obstacles,
             tolerance: tolerance_m,
-            phase: Phase::Poses { pitch: 0 },
+            phase: Phase::Poses { pitch: 0, of: PITCHES },
             start: [Rotor::IDENTITY; 4],
             nearest: None,
             clearest: None,
@@ -135,6 +138,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             map: None,
             times: [-T::ONE; ROUTES],
             replans: 0,
+            passed_over: 0,
         }
     }
 
@@ -142,11 +146,11 @@ impl<T: Real, const N: usize> Reach<T, N> {
     #[inline]
     pub fn tick(&mut self, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
         match self.phase {
-            Phase::Poses { pitch } => {
+            Phase::Poses { pitch, of } => {
                 if pitch == 0 {
                     self.begin(joints);
                 }
-                self.try_pitch(pitch);
+                self.try_pitch(pitch, of);
                 self.planning()
             }
             Phase::Postures { index, best } => {
@@ -181,6 +185,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
     fn begin(&mut self, joints: &[Rotor<T>; 4]) {
         self.start = *joints;
         (self.nearest, self.clearest, self.second_pose) = (None, None, false);
+        self.passed_over = self.replans;
     }
 
     /// Clear by a little more than the step's own stop, so that it arrives.
@@ -188,12 +193,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
         clearance > self.avoid.stop * T::from_f64(1.02)
     }
 
-    fn try_pitch(&mut self, pitch: usize) {
+    fn try_pitch(&mut self, pitch: usize, of: usize) {
         let radial = Vec2::new(self.target.x, self.target.y);
         let Some(ahead) = radial.direction() else { return self.end(Progress::Blocked) };
-        let turns = T::from_i32(pitch as i32) * T::from_f64(1.0 / PITCHES as f64);
+        let turns = T::from_i32(pitch as i32) / T::from_i32(of as i32);
         // In the second round with the tip behind the swing axis.
-        let (swing, reach) = if pitch < PITCHES {
+        let (swing, reach) = if pitch < of {
             (ahead, radial.norm())
         } else {
             (Rotor { cos: -ahead.cos, sin: -ahead.sin }, -radial.norm())
@@ -213,10 +218,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
                 }
             }
         }
-        if pitch + 1 < 2 * PITCHES {
-            self.phase = Phase::Poses { pitch: pitch + 1 };
+        if pitch + 1 < 2 * of {
+            self.phase = Phase::Poses { pitch: pitch + 1, of };
         } else if self.nearest.is_some() {
             self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
+        } else if of == PITCHES {
+            self.phase = Phase::Poses { pitch: 0, of: FINER * PITCHES };
         } else {
             self.end(Progress::Blocked);
         }
@@ -245,8 +252,8 @@ impl<T: Real, const N: usize> Reach<T, N> {
         let posture = self.avoid.aim(&[start.swing, b, a, k]);
         if clear {
             let over = Aim { swing: goal.swing, places: posture.places };
-            let time = self.avoid.time(&self.avoid.lack(&start, &posture))
-                + self.avoid.time(&self.avoid.lack(&over, &goal));
+            let time =
+                self.avoid.time(&self.avoid.lack(&start, &posture)) + self.avoid.time(&self.avoid.lack(&over, &goal));
             if let Some(best) = best.get_mut(kind).filter(|best| best.is_none_or(|best| time < best.worth)) {
                 *best = Some(Pose { aim: posture, worth: time });
             }
@@ -310,6 +317,10 @@ impl<T: Real, const N: usize> Reach<T, N> {
         if along.stuck_after(&step, dt) || steps >= REHEARSED_STEPS {
             self.next_route();
         } else if last && step.to_go_s < T::from_f64(ARRIVED_S) {
+            if self.passed_over > 0 {
+                self.passed_over -= 1;
+                return self.next_route();
+            }
             let along = Along { route: along.route, passed: 0, stuck: T::ZERO };
             self.phase = Phase::Follow { along };
         } else {
@@ -343,7 +354,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
     fn stuck(&mut self) -> Told<T> {
         if self.replans < REPLANS {
             self.replans += 1;
-            self.phase = Phase::Poses { pitch: 0 };
+            self.phase = Phase::Poses { pitch: 0, of: PITCHES };
         } else {
             self.end(Progress::NotConverged);
         }
