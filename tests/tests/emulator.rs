@@ -47,7 +47,9 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         }
         assert_eq!(host.output_hash, emulator.output_hash, "{name}");
         assert_eq!(host.rows.len(), emulator.rows.len(), "{name}");
-        assert!(figures.instructions_per_tick.max <= 3_000, "{name}: {figures:?}");
+        // A tick that plans past obstacles holds one planning step of up to 3,000 on top of all else.
+        let budget = if scenario.parameters.reach.is_some() { 6_000 } else { 3_000 };
+        assert!(figures.instructions_per_tick.max <= budget, "{name}: {figures:?}");
         assert_eq!(figures.tick_period_jitter_ns, 0, "{name}: {figures:?}");
         compared += 1;
     }
@@ -97,6 +99,7 @@ fn the_maps_stay_within_their_instruction_budgets() {
     // Stated in the docs of `isotropy` and `redundancy`, with room for another compiler.
     assert!(largest("singularity_distance_3") <= 45);
     assert!(largest("redundancy_3") <= 260);
+    assert!(largest("avoid_step_2") <= 3_000);
 }
 
 #[test]

@@ -21,6 +21,8 @@ pub struct Tally {
     pub no_route: usize,
     /// Stuck or out of time.
     pub not_converged: usize,
+    /// Of the scenes neither reached nor blocked: those in which a flood over a grid of all poses finds no path either.
+    pub no_path_on_grid: usize,
     /// Scenes in which hull and sphere touched.
     pub collisions: usize,
     /// reached ÷ (scenes − blocked with proof).
@@ -65,6 +67,7 @@ impl Tally {
             blocked_wrongly: count(&|o| o.ended == Ended::Blocked && !proved(o)),
             no_route: count(&|o| o.ended == Ended::NoRoute && !proved(o)),
             not_converged: count(&|o| o.ended == Ended::NotConverged && !proved(o)),
+            no_path_on_grid: count(&|o| o.ended != Ended::Reached && o.proof == Some(Proof::NoPathOnGrid)),
             collisions: count(&collided),
             rate: reached as f64 / (outcomes.len() - blocked_with_proof).max(1) as f64,
             smallest_clearance_m: outcomes.iter().map(|o| o.smallest_clearance_m).fold(f64::INFINITY, f64::min),
@@ -87,6 +90,7 @@ impl Tally {
         table += &line("blocked wrongly / no route / not converged", {
             format!("{} / {} / {}", self.blocked_wrongly, self.no_route, self.not_converged)
         });
+        table += &line("… of these without a path on a grid either", self.no_path_on_grid.to_string());
         table += &line("collisions", self.collisions.to_string());
         table += &line("smallest clearance", format!("{:.1} mm", 1e3 * self.smallest_clearance_m));
         table += &line("mean detour of the tip", format!("{:.3} of the way without obstacles", self.mean_detour));

@@ -80,6 +80,32 @@ impl AvoidParameters {
 }
 
 /// The step's constants for one machine.
+///
+/// ```
+/// use kinematics_core::planning::avoid::{Avoid, AvoidParameters, advanced};
+/// use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
+/// use kinematics_core::{PinGeometry, Rotor};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let g = PinGeometry::EXACT_MINI;
+/// let hull = Hull::<f64>::new(&g, Flesh::of_reach(g.reach_m()))?;
+/// let avoid = Avoid::new(&g, hull, &AvoidParameters::of_reach(g.reach_m(), [1.1, 0.45, 1.1, 1.1]))?;
+/// // Swing a quarter turn to the left; a ball stands half-way.
+/// let pose = |swing| [swing, 20.0, -80.0, -30.0].map(Rotor::from_degrees);
+/// let aim = avoid.aim(&pose(90.0));
+/// assert!(avoid.within_travel(&aim));
+/// let ball = Sphere { x: 1.8, y: 1.8, z: 0.3, radius: 0.3 };
+/// let (mut joints, mut last) = (pose(0.0), None);
+/// for _ in 0..3000 {
+///     let step = avoid.step(&joints, &aim, &[ball]);
+///     joints = advanced(&joints, &step.rates, 0.001);
+///     assert!(avoid.clearance(&joints, &[ball]) > 0.03);
+///     last = Some(step);
+/// }
+/// // It stands still before the ball: the way round it is the choice of `reach`.
+/// assert!(last.is_some_and(|step| step.to_go_s > 0.3));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Avoid<T> {
     pub(crate) hull: Hull<T>,

@@ -76,6 +76,10 @@ const ENDS: [(Link, Link); SEGMENTS] = [
 /// let near = hull.place(&joints).nearest(&ball);
 /// assert!(near.distance > 0.5 && near.distance < 1.2);
 /// assert!(near.row[0] < -0.8);
+/// // It is the nearest of six segments.
+/// let placed = hull.place(&joints);
+/// assert!(placed.near(&ball).iter().all(|segment| segment.distance >= near.distance));
+/// assert_eq!(placed.capsules().count(), 6);
 /// # Ok(())
 /// # }
 /// ```
@@ -154,7 +158,7 @@ impl<T: Real> Hull<T> {
             if first < second { first } else { second }
         });
         // The arm's segment runs from its cylinder's lug to half-way between bucket pin and the rocker's mean place.
-        let Stroke2 { pins, mean } = Stroke2::of(g);
+        let RockerPins { pins, mean } = RockerPins::of(g);
         let arm_end = (bucket_pin + mean).scale(0.5);
         let near_arm = |p| to_segment(p, g.arm.rod, arm_end);
         let pins_far = farthest(&pins, near_arm);
@@ -183,7 +187,7 @@ impl<T: Real> Hull<T> {
     }
 
     /// The thickest radius, m.
-    pub fn thickest_m(&self) -> T {
+    pub(crate) fn thickest_m(&self) -> T {
         self.radii.into_iter().fold(T::ZERO, |most, r| if r > most { r } else { most })
     }
 
@@ -216,12 +220,12 @@ impl<T: Real> Hull<T> {
 }
 
 /// The rocker's pin over the bucket cylinder's stroke.
-struct Stroke2 {
+struct RockerPins {
     pins: [Vec2<f64>; LOOKS as usize + 1],
     mean: Vec2<f64>,
 }
 
-impl Stroke2 {
+impl RockerPins {
     fn of(g: &PinGeometry) -> Self {
         let stroke = g.bucket.stroke;
         let mut pins = [Vec2::new(0.0, 0.0); LOOKS as usize + 1];

@@ -19,7 +19,7 @@ use crate::{PlaneTip, Real, Rotor, Vec2};
 
 /// Bucket pitches tried at the target, and as many times more where none of them was clear.
 pub const PITCHES: usize = 64;
-const FINER: usize = 8;
+const FINER: usize = 24;
 /// Postures tried for passing.
 pub const GRID: usize = 5 * POSTURES * 3;
 /// Plannings after the first.
@@ -90,6 +90,37 @@ enum Phase<T, const N: usize> {
 }
 
 /// One target, its obstacles, and how far the way to it has come.
+///
+/// ```
+/// use kinematics_core::planning::avoid::{Avoid, AvoidParameters, advanced};
+/// use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
+/// use kinematics_core::planning::reach::{Progress, Reach, Target};
+/// use kinematics_core::{Machine, PinGeometry, Rotor};
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let g = PinGeometry::EXACT_MINI;
+/// let hull = Hull::<f32>::new(&g, Flesh::of_reach(g.reach_m()))?;
+/// let avoid = Avoid::new(&g, hull, &AvoidParameters::of_reach(g.reach_m(), [1.1, 0.45, 1.1, 1.1]))?;
+/// let chain = *Machine::new(&g)?.chain();
+/// // From straight ahead to the left, a ball between.
+/// let target = Target { x: 0.0, y: 2.5, z: 0.2 };
+/// let ball = Sphere { x: 1.8, y: 1.8, z: 0.0, radius: 0.3 };
+/// let mut reach = Reach::new(avoid, chain, target, [ball], 0.01);
+/// let mut joints = [0.0, 20.0, -80.0, -30.0].map(Rotor::from_degrees);
+/// let ended = (0..20_000).find_map(|_| {
+///     let told = reach.tick(&joints, 0.001);
+///     joints = advanced(&joints, &told.rates, 0.001);
+///     assert!(told.clearance.is_none_or(|clearance| clearance > 0.03));
+///     (!matches!(told.progress, Progress::Planning | Progress::Moving)).then_some(told.progress)
+/// });
+/// assert_eq!(ended, Some(Progress::Reached));
+/// // Inside a ball there is no pose to reach.
+/// let around = Sphere { x: 0.0, y: 2.5, z: 0.2, radius: 0.3 };
+/// let mut reach = Reach::new(avoid, chain, target, [around], 0.01);
+/// let told = (0..2000).map(|_| reach.tick(&joints, 0.001)).last();
+/// assert!(told.is_some_and(|told| told.progress == Progress::Blocked));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Reach<T, const N: usize> {
     avoid: Avoid<T>,

@@ -10,6 +10,8 @@ use kinematics_core::cylinder_jacobian::CylinderJacobian;
 use kinematics_core::isotropy::singularity_distance;
 use kinematics_core::jacobian::Twist;
 use kinematics_core::joint_range::JointRange;
+use kinematics_core::planning::avoid::{Aim, Avoid, AvoidParameters, Step};
+use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
 use kinematics_core::rates::{CylinderRates, MomentArms};
 use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
 use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
@@ -88,6 +90,12 @@ type Motion = ([Rotor<f32>; 3], Vec2<f32>, [f32; 3]);
 #[inline(never)]
 fn redundancy_3(redundancy: &Redundancy<f32, 3>, (joints, velocity, wish): &Motion) -> Rates<f32, 3> {
     redundancy.rates(joints, *velocity, wish)
+}
+
+/// One planning step with two obstacles, both close enough to be heeded.
+#[inline(never)]
+fn avoid_step_2(avoid: &Avoid<f32>, joints: &[Rotor<f32>; 4], aim: &Aim<f32>, balls: &[Sphere<f32>; 2]) -> Step<f32> {
+    avoid.step(joints, aim, balls)
 }
 
 struct Out(Link);
@@ -185,6 +193,19 @@ fn main() -> ! {
     row(&mut out, s, "singularity_distance_3", |t| chain.jacobian(&joints(t)), singularity_distance_3);
     let motion = |t: f32| (joints(t), Vec2::new(0.3, -t), [0.0, -0.1, t]);
     row(&mut out, s, "redundancy_3", motion, |j| redundancy_3(&redundancy, j));
+    let reach_m = geometry.reach_m();
+    let Ok(hull) = Hull::new(&geometry, Flesh::of_reach(reach_m)) else { fail() };
+    let limits = AvoidParameters::of_reach(reach_m, [1.1, 0.45, 1.1, 1.1]);
+    let Ok(avoid) = Avoid::new(&geometry, hull, &limits) else { fail() };
+    let avoid = black_box(avoid);
+    let four = |t: f32| {
+        let [boom, arm, bucket] = joints(t);
+        [swing, boom, arm, bucket]
+    };
+    let aim = black_box(avoid.aim(&four(0.5)));
+    let balls =
+        black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
+    row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     angles(&mut out, s);
     succeed()
 }
