@@ -55,7 +55,7 @@ impl Motion {
         let (valves, smallest) = (&p.valves, p.motion.smallest_speed_mps);
         let geometry: &PinGeometry = &p.geometry;
         let reach = match &p.reach {
-            Some(reach) => Some(ReachFollower::new(reach, geometry, machine, valves, smallest)?),
+            Some(reach) => Some(ReachFollower::new(reach, geometry, machine, valves, &p.motion)?),
             None => None,
         };
         Ok(Self {

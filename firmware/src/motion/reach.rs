@@ -1,6 +1,6 @@
 //! Reach: the tip goes to a target past obstacles. Joint rates by `kinematics_core::planning`, actuator speeds by moment arms.
 
-use kinematics_core::planning::avoid::{Avoid, AvoidError, AvoidParameters};
+use kinematics_core::planning::avoid::{Avoid, AvoidParameters};
 use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
 use kinematics_core::planning::reach::{Progress, Reach, Target};
 use kinematics_core::{Cylinders, Machine, PinGeometry, Pose};
@@ -10,7 +10,7 @@ use super::creep::Creep;
 use crate::TICK_S;
 use crate::fault::Fault;
 use crate::io::Speeds;
-use crate::parameters::{ParameterError, ReachParameters, ValveDirection};
+use crate::parameters::{MotionParameters, ParameterError, ReachParameters, ValveDirection};
 
 /// Stands for an obstacle that is not there: a point farther off than any machine reaches.
 const NOWHERE: Sphere<f32> = Sphere { x: 0.0, y: 0.0, z: 1000.0, radius: 0.0 };
@@ -37,19 +37,20 @@ impl ReachFollower {
         geometry: &PinGeometry,
         machine: &Machine<f32>,
         valves: &[[ValveDirection; 2]; 4],
-        smallest_speed: f32,
+        motion: &MotionParameters,
     ) -> Result<Self, ParameterError> {
         let reach_m = geometry.reach_m();
         let hull = Hull::new(geometry, Flesh::of_reach(reach_m))?;
-        let avoid = Avoid::new(geometry, hull, &AvoidParameters::of_reach(reach_m, p.speeds_rad_s))
-            .map_err(|error: AvoidError| ParameterError::Avoid(error))?;
+        // What the feed-forward of a dig looks ahead by is what the actuators lag behind by.
+        let limits = AvoidParameters::of_reach(reach_m, p.speeds_rad_s).with_delay(motion.preview_s.into());
+        let avoid = Avoid::new(geometry, hull, &limits).map_err(ParameterError::Avoid)?;
         let target = Target { x: p.target.x as f32, y: p.target.y as f32, z: p.target.z as f32 };
         let reach = Reach::new(avoid, *machine.chain(), target, p.obstacles.map(sphere), p.tolerance_m as f32);
         Ok(Self {
             fresh: reach,
             reach,
             full_speeds: valves.map(|spool| spool.map(|direction| direction.full_speed)),
-            smallest_speed,
+            smallest_speed: motion.smallest_speed_mps,
             creep: [Creep::default(); 4],
         })
     }

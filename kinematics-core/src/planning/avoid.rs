@@ -79,6 +79,20 @@ impl AvoidParameters {
     }
 }
 
+impl AvoidParameters {
+    /// For actuators that follow so late, s (dead time and lag), if that is more than the tenth of a second of
+    /// [`AvoidParameters::of_reach`]. A first-order approach seen τ late overshoots unless its time constant is at least e·τ: here 3·τ.
+    ///
+    /// ```
+    /// use kinematics_core::planning::avoid::AvoidParameters;
+    /// let late = AvoidParameters::of_reach(10.0, [1.0; 4]).with_delay(0.2);
+    /// assert!((late.approach_s - 0.6).abs() < 1e-12 && (late.settle_s - 0.6).abs() < 1e-12);
+    /// ```
+    pub fn with_delay(self, delay_s: f64) -> Self {
+        if delay_s > 0.1 { Self { approach_s: 3.0 * delay_s, settle_s: 3.0 * delay_s, ..self } } else { self }
+    }
+}
+
 /// The step's constants for one machine.
 ///
 /// ```
@@ -346,8 +360,11 @@ fn travel(first: Rotor<f64>, last: Rotor<f64>) -> Option<Travel<f64>> {
     (half > 0.0 && half_cos > -1.0).then_some(Travel { middle, half })
 }
 
+/// Of boom, arm, bucket, and of the swing.
+type Travels = ([Travel<f64>; 3], Option<Travel<f64>>);
+
 /// Travels of boom, arm, bucket over their strokes, and of the swing cylinder's where there is one.
-fn travels(g: &PinGeometry) -> Option<([Travel<f64>; 3], Option<Travel<f64>>)> {
+fn travels(g: &PinGeometry) -> Option<Travels> {
     let machine = Machine::<f64>::new(g).ok()?;
     let end = |[boom, arm, bucket]: [f64; 3]| -> Option<Joints<f64>> {
         machine.cylinders_to_joints(&crate::Cylinders { boom, arm, bucket }).ok()
