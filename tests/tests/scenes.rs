@@ -1,6 +1,9 @@
 //! Obstacle avoidance in random scenes: nearly all that can be reached is, and nothing is ever touched.
 
+use cross_tests::rig::scenario;
 use hil_sim::machine_file::MachineFile;
+use hil_sim::place::Host;
+use hil_sim::run::{Outcome as Ending, Run, Summary};
 use hil_sim::scenes::{Ended, Kit, Outcome, Tally};
 
 const SCENES: u64 = 150;
@@ -46,4 +49,19 @@ fn a_target_inside_an_obstacle_is_blocked_and_proved_to_be() {
     let outcome = kit.play(&scene, |_| panic!("it must not move"));
     assert_eq!(outcome.ended, Ended::Blocked);
     assert_eq!(outcome.proof, Some(hil_sim::scenes::Proof::NoClearPose));
+}
+
+#[test]
+fn the_controller_reaches_past_the_obstacle_through_valves_that_lag() {
+    for name in ["obstacle-over", "obstacle-plane"] {
+        let scenario = scenario(name);
+        let mut host = Host::new(&scenario.parameters).unwrap_or_else(|error| panic!("{error}"));
+        let run = Run::new(&scenario, 1).unwrap_or_else(|error| panic!("{error}"));
+        let log = run.complete(&mut host, |_, _| {}).unwrap_or_else(|error| panic!("{error}"));
+        let summary = Summary::of(&scenario, "host", 1, &log, None);
+        let tolerance_m = scenario.parameters.reach.map_or(0.0, |reach| reach.tolerance_m);
+        assert_eq!(summary.outcome(), Ending::Done, "{summary:?}");
+        assert!(summary.target_error_m.is_some_and(|error| error <= tolerance_m), "{summary:?}");
+        assert!(summary.smallest_clearance_m.is_some_and(|clearance| clearance > 0.02), "{summary:?}");
+    }
 }
