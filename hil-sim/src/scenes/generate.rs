@@ -114,11 +114,11 @@ impl Kit {
         obstacles.iter().map(|o| placed.nearest(o).distance).fold(f64::INFINITY, f64::min)
     }
 
-    fn obstacle(&self, dice: &mut Dice, between: Option<(&[Rotor<f64>; 4], &[Rotor<f64>; 4])>) -> Sphere<f64> {
+    fn obstacle(&self, dice: &mut Dice, between: Option<[&[Rotor<f64>; 4]; 2]>) -> Sphere<f64> {
         let reach = self.geometry.reach_m();
         let radius = dice.between(0.02, 0.12) * reach;
         let [x, y, z] = match between {
-            Some((start, pose)) => {
+            Some([start, pose]) => {
                 // Around a point of arm or bucket half-way along the straight way.
                 let share = dice.between(0.25, 0.75);
                 let mut joints = [Rotor::IDENTITY; 4];
@@ -156,7 +156,7 @@ impl Kit {
             let obstacles: Vec<_> = (0..count)
                 .map(|_| {
                     let in_the_way = dice.unit() < 0.6;
-                    self.obstacle(&mut dice, in_the_way.then_some((&start, &pose)))
+                    self.obstacle(&mut dice, in_the_way.then_some([&start, &pose]))
                 })
                 .collect();
             let clear = |joints| self.clearance(joints, &obstacles) > self.keep_m;
