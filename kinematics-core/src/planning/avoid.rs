@@ -237,12 +237,13 @@ impl<T: Real> Avoid<T> {
     }
 
     /// The hull's smallest distance from the obstacles, m.
+    #[inline(never)]
     pub fn clearance<const N: usize>(&self, joints: &[Rotor<T>; 4], obstacles: &[Sphere<T>; N]) -> T {
         smallest(&nearest(&self.hull.place(joints), obstacles))
     }
 
-    /// One step from `joints` (swing, boom, arm, bucket) towards the aim.
-    #[inline]
+    /// One step from `joints` (swing, boom, arm, bucket) towards the aim. One copy of it: rehearsal and motion share it.
+    #[inline(never)]
     pub fn step<const N: usize>(&self, joints: &[Rotor<T>; 4], aim: &Aim<T>, obstacles: &[Sphere<T>; N]) -> Step<T> {
         let here = self.aim(joints);
         let lack = self.lack(&here, aim);

@@ -247,7 +247,7 @@ impl<T: Real> Placed<T> {
 
     /// The nearest place of each segment to a sphere. Two segments may be equally near: a step that heeds one of them alone closes in
     /// with the other, turn and turn about.
-    #[inline(always)]
+    #[inline(never)]
     pub fn near(&self, sphere: &Sphere<T>) -> [Near<T>; SEGMENTS] {
         let swing = self.swing;
         // The centre seen from the boom pin, in the frame that turns with the swing.

@@ -116,7 +116,7 @@ enum Phase<T, const N: usize> {
 /// // Inside a ball there is no pose to reach.
 /// let around = Sphere { x: 0.0, y: 2.5, z: 0.2, radius: 0.3 };
 /// let mut reach = Reach::new(avoid, chain, target, [around], 0.01);
-/// let told = (0..2000).map(|_| reach.tick(&joints, 0.001)).last();
+/// let told = (0..4000).map(|_| reach.tick(&joints, 0.001)).last();
 /// assert!(told.is_some_and(|told| told.progress == Progress::Blocked));
 /// # Ok(())
 /// # }
@@ -174,7 +174,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
     }
 
     /// One tick of `dt` s at these joints (swing, boom, arm, bucket).
-    #[inline]
+    #[inline(never)]
     pub fn tick(&mut self, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
         match self.phase {
             Phase::Poses { pitch, of } => {
