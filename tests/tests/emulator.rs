@@ -77,7 +77,8 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     println!("{figures:?}");
     assert!(figures.instructions_per_tick.max <= 3_000);
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 16 * 1024);
-    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 96 * 1024);
+    // Planning past obstacles takes 30 KiB of it; the STM32F405 has 1 MiB.
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 136 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
 }
 
