@@ -119,9 +119,20 @@ pub struct Near<T> {
     pub row: [T; 4],
 }
 
+/// `clamp` would link a panic for limits in the wrong order.
+fn limited(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
 fn to_segment(point: Vec2<f64>, from: Vec2<f64>, to: Vec2<f64>) -> f64 {
     let along = to - from;
-    let share = ((point - from).dot(along) / along.norm_squared()).clamp(0.0, 1.0);
+    let share = limited((point - from).dot(along) / along.norm_squared(), 0.0, 1.0);
     (point - from - along.scale(share)).norm()
 }
 
@@ -136,7 +147,7 @@ const LOOKS: i32 = 16;
 fn rocker_pin(g: &PinGeometry, length: f64) -> Vec2<f64> {
     let (to_base, r) = (g.bucket.base - g.bucket.rocker_pivot, g.bucket.rocker_m);
     let side = to_base.norm();
-    let cos = ((side * side + r * r - length * length) / (2.0 * side * r)).clamp(-1.0, 1.0);
+    let cos = limited((side * side + r * r - length * length) / (2.0 * side * r), -1.0, 1.0);
     let turn = Vec2::new(cos, -Real::sqrt(1.0 - cos * cos));
     g.bucket.rocker_pivot + turn.complex_mul(to_base).scale(r / side)
 }
