@@ -52,10 +52,10 @@ impl Ecu {
             None => None,
         };
         Ok(Self {
-            machine,
             sensing,
             command: Command::new(p.command_timeout_ticks),
-            motion: Motion::new(&p.motion, &p.valves, dig, planned.as_ref()),
+            motion: Motion::new(p, &machine, dig, planned.as_ref())?,
+            machine,
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
             tick: 0,
@@ -104,7 +104,7 @@ impl Ecu {
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
-            self.motion.follow(&self.machine, running, intent, &sensed.lengths)
+            self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)
         });
         if result.is_err() {
             self.motion.reset();

@@ -18,6 +18,8 @@ pub enum Request {
     Levers,
     /// Follow the planned move.
     Move,
+    /// Bring the tip to the target of the parameters, past their obstacles.
+    Reach,
 }
 
 /// Speeds of the four actuators: cylinders m/s, extending positive; a swing motor rad/s, counter-clockwise positive, a swing

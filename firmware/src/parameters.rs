@@ -3,6 +3,9 @@
 use core::fmt;
 
 use kinematics_core::geometry::Stroke;
+use kinematics_core::planning::avoid::AvoidError;
+use kinematics_core::planning::hull::Sphere;
+use kinematics_core::planning::reach::Target;
 use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
@@ -102,6 +105,21 @@ pub struct Parameters {
     pub dig: Option<DigParameters>,
     /// The move, where there is one.
     pub planned_move: Option<MoveParameters>,
+    /// The target to reach past obstacles, where there is one.
+    pub reach: Option<ReachParameters>,
+}
+
+/// A target for the tip and what stands around, in the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReachParameters {
+    /// Where the tip shall go.
+    pub target: Target<f64>,
+    /// How near it must come, m.
+    pub tolerance_m: f64,
+    /// What to keep away from.
+    pub obstacles: [Option<Sphere<f64>>; 2],
+    /// Speed limits of swing, boom, arm, bucket, rad/s.
+    pub speeds_rad_s: [f64; 4],
 }
 
 /// What is wrong with a parameter record.
@@ -131,6 +149,8 @@ pub enum ParameterError {
     Dig(Violation<f32>),
     /// The move has no plan.
     Move(MoveError),
+    /// What planning past obstacles lacks.
+    Avoid(AvoidError),
 }
 
 impl From<GeometryError> for ParameterError {
@@ -151,6 +171,7 @@ impl fmt::Display for ParameterError {
                 f.write_str("`swing_sensor` reads a swing cylinder, but the geometry has no `swing` pins")
             }
             Self::Move(error) => write!(f, "`move`: {error}"),
+            Self::Avoid(error) => write!(f, "`reach`: {error}"),
             Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
         }
     }
@@ -224,7 +245,28 @@ impl Parameters {
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
-        self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)
+        self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
+        self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)
+    }
+}
+
+impl ReachParameters {
+    fn validate(&self) -> Result<(), ParameterError> {
+        let far = [-50.0, 50.0];
+        within("reach.target.x", self.target.x, far)?;
+        within("reach.target.y", self.target.y, far)?;
+        within("reach.target.z", self.target.z, far)?;
+        within("reach.tolerance_m", self.tolerance_m, [0.001, 1.0])?;
+        for obstacle in self.obstacles.iter().flatten() {
+            within("reach.obstacle.x", obstacle.x, far)?;
+            within("reach.obstacle.y", obstacle.y, far)?;
+            within("reach.obstacle.z", obstacle.z, far)?;
+            within("reach.obstacle.radius", obstacle.radius, [0.0, 50.0])?;
+        }
+        for speed in self.speeds_rad_s {
+            within("reach.speeds_rad_s", speed, [0.001, 4.0])?;
+        }
+        Ok(())
     }
 }
 

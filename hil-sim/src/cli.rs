@@ -7,6 +7,7 @@ mod planar_arm;
 pub mod pose;
 mod progress;
 pub mod run;
+pub mod scenes;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -32,6 +33,8 @@ enum Command {
     Effort(effort::EffortArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
+    /// Reach targets past obstacles in thousands of random scenes, and report how it went
+    Scenes(scenes::ScenesArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
 }
@@ -52,6 +55,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
         Ok(Hil { command: Command::Effort(args) }) => effort::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {

@@ -10,6 +10,7 @@
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
+//! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
@@ -24,5 +25,6 @@ pub mod plant;
 pub mod report;
 pub mod run;
 pub mod scenario;
+pub mod scenes;
 mod toml_text;
 pub mod travel;

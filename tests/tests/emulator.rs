@@ -47,8 +47,9 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         }
         assert_eq!(host.output_hash, emulator.output_hash, "{name}");
         assert_eq!(host.rows.len(), emulator.rows.len(), "{name}");
-        // A move advances two paces and looks up its path twice; a tick of 1 ms has 168,000 cycles.
-        let budget = if scenario.parameters.planned_move.is_some() { 4_500 } else { 3_000 };
+        // A move advances two paces and looks up its path twice; past obstacles a tick holds a planning step. A tick of 1 ms has 168,000 cycles.
+        let p = &scenario.parameters;
+        let budget = if p.reach.is_some() || p.planned_move.is_some() { 6_000 } else { 3_000 };
         assert!(figures.instructions_per_tick.max <= budget, "{name}: {figures:?}");
         // 0 on a quiet computer. On a loaded one the emulator's virtual timer may come late: 8.5 µs were seen. A hundredth of the period.
         assert!(figures.tick_period_jitter_ns <= 10_000, "{name}: {figures:?}");
@@ -79,7 +80,7 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     assert!(figures.instructions_per_tick.max <= 3_000);
     // The peak is at construction: 12 KiB of a move's tables are handed on by value several times, of 128 KiB of RAM.
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 64 * 1024);
-    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 128 * 1024);
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 160 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
 }
 
@@ -104,6 +105,7 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("time_scaling_step") <= 1500);
     assert!(largest("cylinder_path_at") <= 400);
     assert!(largest("planning_step") <= 330_000);
+    assert!(largest("avoid_step_2") <= 3_000);
 }
 
 #[test]

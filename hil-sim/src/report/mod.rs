@@ -14,6 +14,7 @@ mod html;
 mod machine;
 mod planar_arm;
 mod run;
+mod scene;
 mod series;
 mod table;
 #[cfg(test)]
@@ -23,6 +24,7 @@ pub use dig::draw_only;
 pub use machine::write_machine;
 pub use planar_arm::{planar_arm_table, write_planar_arm};
 pub use run::write;
+pub use scene::write_scene;
 pub use table::table;
 
 /// Nobody shall take a report for proof of a machine.

@@ -2,6 +2,7 @@
 
 mod log;
 mod operator;
+mod reach;
 mod summary;
 
 use std::time::Instant;
@@ -19,6 +20,7 @@ use crate::travel::{Violation, violations};
 
 pub use log::{FaultSeen, Log, Row, StopHit};
 pub use operator::Operator;
+pub use reach::ReachSeen;
 pub use summary::{EmulatorFigures, InstructionCounts, Outcome, Summary};
 
 /// A run that is under way.
@@ -156,7 +158,7 @@ fn start(
     swing: SwingDrive,
 ) -> Result<[f64; 4], RunError> {
     match (&scenario.task, dig) {
-        (Task::Levers { start, .. }, _) => {
+        (Task::Levers { start, .. } | Task::Reach { start }, _) => {
             let swing = swing.position(start.swing_deg.to_radians()).map_err(RunError::Swing)?;
             Ok([swing, start.boom_m, start.arm_m, start.bucket_m])
         }

@@ -3,9 +3,13 @@
 use firmware::Parameters;
 use firmware::dig::DigParameters;
 use firmware::moves::{MoveParameters, Pitch};
-use firmware::parameters::{Coil, MotionParameters, PositionSensor, Supply, SwingSensor, ValveDirection};
+use firmware::parameters::{
+    Coil, MotionParameters, PositionSensor, ReachParameters, Supply, SwingSensor, ValveDirection,
+};
 use kinematics_core::geometry::Stroke;
 use kinematics_core::planning::effort::Piston;
+use kinematics_core::planning::hull::Sphere;
+use kinematics_core::planning::reach::Target;
 use kinematics_core::{Machine, PinGeometry, Rotor};
 
 use super::check::within;
@@ -78,6 +82,19 @@ fn planned_move(m: &file::PlannedMove, plant: &[ActuatorModel; 4]) -> MoveParame
     }
 }
 
+fn reach(reach: &file::Reach, obstacles: &[file::Obstacle]) -> Result<ReachParameters, String> {
+    let sphere = |o: &file::Obstacle| Sphere { x: o.x_m, y: o.y_m, z: o.z_m, radius: o.radius_m };
+    if obstacles.len() > 2 {
+        return Err(format!("`obstacle`: {} of them, but the controller keeps away from at most 2", obstacles.len()));
+    }
+    Ok(ReachParameters {
+        target: Target { x: reach.target_x_m, y: reach.target_y_m, z: reach.target_z_m },
+        tolerance_m: reach.tolerance_m,
+        obstacles: [0, 1].map(|i| obstacles.get(i).map(sphere)),
+        speeds_rad_s: [reach.swing_rad_s, reach.boom_rad_s, reach.arm_rad_s, reach.bucket_rad_s],
+    })
+}
+
 /// The one task of the file.
 fn task(file: &mut ScenarioFile) -> Result<Task, String> {
     let moves = std::mem::take(&mut file.lever);
@@ -89,13 +106,25 @@ fn task(file: &mut ScenarioFile) -> Result<Task, String> {
             Err("`dig`, `lever` and `start` must be left out with `move`".to_owned())
         };
     }
+    if file.reach.is_some() {
+        return match (&file.dig, moves.is_empty(), file.start) {
+            (None, true, Some(start)) => Ok(Task::Reach { start }),
+            (None, true, None) => Err("`start` is missing: where the machine stands before it reaches".to_owned()),
+            _ => Err("`reach` stands alone: without `dig` and `lever`".to_owned()),
+        };
+    }
+    if !file.obstacle.is_empty() {
+        return Err("`obstacle` is for `reach`, which is missing".to_owned());
+    }
     match (&file.dig, moves.is_empty(), file.start) {
         (Some(_), true, None) => Ok(Task::Dig),
         (Some(_), true, Some(_)) => Err("`start` must be left out with `dig`, which says where it starts".to_owned()),
         (None, false, Some(start)) => Ok(Task::Levers { start, moves }),
         (None, false, None) => Err("`start` is missing: where the machine stands before the levers move".to_owned()),
         (Some(_), false, _) => Err("either `dig` or `lever`, not both".to_owned()),
-        (None, true, _) => Err("one of `dig`, `lever` and `move` is needed: what the operator does".to_owned()),
+        (None, true, _) => {
+            Err("one of `dig`, `lever`, `move` and `reach` is needed: what the operator does".to_owned())
+        }
     }
 }
 
@@ -141,7 +170,7 @@ fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
 pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
     let g = &machine.geometry;
     let task = task(&mut file)?;
-    if let Task::Levers { start, .. } = &task {
+    if let Task::Levers { start, .. } | Task::Reach { start } = &task {
         start_ranges(start, g)?;
     }
     let p = &file.plant;
@@ -173,6 +202,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         },
         dig: file.dig.as_ref().map(dig),
         planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
+        reach: file.reach.as_ref().map(|reach| self::reach(reach, &file.obstacle)).transpose()?,
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {

@@ -25,6 +25,9 @@ pub(super) struct ScenarioFile {
     pub(super) start: Option<Start>,
     #[serde(default)]
     pub(super) lever: Vec<LeverMove>,
+    pub(super) reach: Option<Reach>,
+    #[serde(default)]
+    pub(super) obstacle: Vec<Obstacle>,
     pub(super) motion: Motion,
     pub(super) plant: Plant,
     #[serde(default)]
@@ -36,6 +39,30 @@ pub(super) struct ScenarioFile {
 pub(super) struct Operator {
     pub(super) enable_s: f64,
     pub(super) begin_s: f64,
+}
+
+/// Where the tip shall go, and how fast the joints may move.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Reach {
+    pub(super) target_x_m: f64,
+    pub(super) target_y_m: f64,
+    pub(super) target_z_m: f64,
+    pub(super) tolerance_m: f64,
+    pub(super) swing_rad_s: f64,
+    pub(super) boom_rad_s: f64,
+    pub(super) arm_rad_s: f64,
+    pub(super) bucket_rad_s: f64,
+}
+
+/// A sphere to keep away from.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Obstacle {
+    pub(super) x_m: f64,
+    pub(super) y_m: f64,
+    pub(super) z_m: f64,
+    pub(super) radius_m: f64,
 }
 
 /// How to read the paper's program.

@@ -17,6 +17,11 @@ pub enum Task {
         /// The moves; where several are under way their deflections add up.
         moves: Vec<LeverMove>,
     },
+    /// Asks for the target of the parameters.
+    Reach {
+        /// Where the machine stands at first.
+        start: Start,
+    },
 }
 
 /// Where the machine stands at first.
@@ -72,6 +77,7 @@ impl Task {
             Self::Dig => Request::Dig,
             Self::Move => Request::Move,
             Self::Levers { .. } => Request::Levers,
+            Self::Reach { .. } => Request::Reach,
         }
     }
 

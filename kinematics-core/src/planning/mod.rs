@@ -12,9 +12,16 @@
 //! - [`least_effort`] — the cheapest end of a move from point to point; [`pitch_plan`] — the cheapest pitches along a path,
 //!   against [`minimum_norm`];
 //! - [`cylinder_path`] — a smooth path through the planned cylinder lengths; [`time_scaling`] — how fast along it.
+//!
+//! The real machine in the loop, swing included:
+//! - [`hull`] — the linkage as capsules and its distances from spheres;
+//! - [`avoid`] — one step past obstacles; [`reach`] — the whole way to a target.
 
+pub mod avoid;
 pub mod cylinder_path;
 pub mod effort;
+pub mod hull;
+mod joint_line;
 pub mod least_effort;
 pub mod minimum_norm;
 pub mod move_limits;
@@ -23,6 +30,8 @@ pub mod park;
 pub mod pitch_plan;
 pub mod pitch_rule;
 pub mod planner;
+pub mod reach;
+mod route;
 mod speed_table;
 pub mod time_scaling;
 pub mod tip_path;

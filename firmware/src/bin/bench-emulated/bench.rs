@@ -11,8 +11,10 @@ use kinematics_core::cylinder_jacobian::CylinderJacobian;
 use kinematics_core::isotropy::singularity_distance;
 use kinematics_core::jacobian::Twist;
 use kinematics_core::joint_range::JointRange;
+use kinematics_core::planning::avoid::{Aim, Avoid, AvoidParameters, Step};
 use kinematics_core::planning::cylinder_path::{CylinderPath, PathPoint};
 use kinematics_core::planning::effort::Effort;
+use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
 use kinematics_core::planning::move_limits::{Limits, MoveLimits};
 use kinematics_core::planning::pitch_plan::{PathMove, PitchPlanner};
 use kinematics_core::planning::pitch_rule::PitchRule;
@@ -149,6 +151,12 @@ fn planning(out: &mut Out, stopwatch: &Stopwatch, machine: &Machine<f32>) -> Opt
     Some(())
 }
 
+/// One planning step with two obstacles, both close enough to be heeded.
+#[inline(never)]
+fn avoid_step_2(avoid: &Avoid<f32>, joints: &[Rotor<f32>; 4], aim: &Aim<f32>, balls: &[Sphere<f32>; 2]) -> Step<f32> {
+    avoid.step(joints, aim, balls)
+}
+
 struct Out(Link);
 
 impl Write for Out {
@@ -247,6 +255,19 @@ fn main() -> ! {
     if planning(&mut out, s, m).is_none() {
         fail();
     }
+    let reach_m = geometry.reach_m();
+    let Ok(hull) = Hull::new(&geometry, Flesh::of_reach(reach_m)) else { fail() };
+    let limits = AvoidParameters::of_reach(reach_m, [1.1, 0.45, 1.1, 1.1]);
+    let Ok(avoid) = Avoid::new(&geometry, hull, &limits) else { fail() };
+    let avoid = black_box(avoid);
+    let four = |t: f32| {
+        let [boom, arm, bucket] = joints(t);
+        [swing, boom, arm, bucket]
+    };
+    let aim = black_box(avoid.aim(&four(0.5)));
+    let balls =
+        black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
+    row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     angles(&mut out, s);
     succeed()
 }

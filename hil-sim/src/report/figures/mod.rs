@@ -1,5 +1,6 @@
 //! Figures as data: what stands in each panel. [`draw`] alone knows how it becomes SVG.
 
+pub(super) mod avoidance;
 mod draw;
 pub(super) mod events;
 pub(super) mod lengths;
