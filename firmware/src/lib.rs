@@ -24,6 +24,7 @@ pub mod motion;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;
+pub mod store;
 pub mod supervisor;
 pub mod travel;
 pub mod valve;
