@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod board;
+pub mod calibration;
 pub mod command;
 pub mod dig;
 mod ecu;
