@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod machine;
+pub mod params;
 pub mod pose;
 mod progress;
 pub mod run;
@@ -26,6 +27,8 @@ enum Command {
     Pose(pose::PoseArgs),
     /// Show what a machine can do over all of its stroke: workspace, moment arms, sensitivity, isotropy
     Machine(machine::MachineArgs),
+    /// Make, show, compare and approve the controller's parameter records
+    Params(params::ParamsArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
@@ -46,6 +49,7 @@ pub fn main() -> ExitCode {
     match Hil::try_parse_from(&arguments) {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
+        Ok(Hil { command: Command::Params(args) }) => params::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.

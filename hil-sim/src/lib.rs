@@ -7,6 +7,7 @@
 //! - [`plant`] — the simulated machine;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
+//! - [`record`] — the controller's parameter record as a file;
 //! - [`report`] — what a run looks like;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
@@ -17,6 +18,7 @@ pub mod machine_file;
 pub mod machine_report;
 pub mod place;
 pub mod plant;
+pub mod record;
 pub mod report;
 pub mod run;
 pub mod scenario;
