@@ -264,7 +264,8 @@ fn driver_and_chip_agree_over_many_scans() {
 
 #[test]
 fn every_break_is_seen_in_the_scan_it_happens_and_named() {
-    let cases: [(Break, fn(AdcError) -> bool); 7] = [
+    type IsNamed = fn(AdcError) -> bool;
+    let cases: [(Break, IsNamed); 7] = [
         (Break::StuckLow, |e| e == AdcError::NoAnswer),
         (Break::StuckHigh, |e| e == AdcError::NoAnswer),
         (Break::Noisy, |e| matches!(e, AdcError::Garbled { channel: 0 })),
