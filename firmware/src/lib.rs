@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod board;
 pub mod calibration;
 pub mod command;
 pub mod dig;
@@ -25,6 +26,7 @@ pub mod moves;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;
+pub mod store;
 pub mod supervisor;
 pub mod travel;
 pub mod valve;

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod effort;
 pub mod machine;
 mod planar_arm;
+pub mod params;
 pub mod pose;
 mod progress;
 pub mod run;
@@ -31,6 +32,8 @@ enum Command {
     Machine(machine::MachineArgs),
     /// Print what least-effort moves cost against the minimum-norm ones
     Effort(effort::EffortArgs),
+    /// Make, show, compare and approve the controller's parameter records
+    Params(params::ParamsArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
@@ -54,6 +57,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
         Ok(Hil { command: Command::Effort(args) }) => effort::main(&args),
+        Ok(Hil { command: Command::Params(args) }) => params::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),

@@ -9,6 +9,7 @@
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
+//! - [`record`] — the controller's parameter record as a file;
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
@@ -22,6 +23,7 @@ pub mod machine_report;
 pub mod place;
 pub mod planar_arm;
 pub mod plant;
+pub mod record;
 pub mod report;
 pub mod run;
 pub mod scenario;

@@ -1,6 +1,7 @@
 //! Helpers of the cross-crate tests.
 //!
 //! - [`machines`]: the four reference machines' pins as numbers;
+//! - [`boards`]: a board of plain values, and a record to store;
 //! - [`golden`]: the golden values, read from `tests/data`;
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`differences`]: derivatives of the oracle by central differences;
@@ -10,6 +11,7 @@
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
+pub mod boards;
 pub mod differences;
 pub mod golden;
 pub mod jacobians;

@@ -2,7 +2,8 @@
 //! panic in the control loop.
 
 use hil_sim::place::Image;
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
+use object::read::elf::{ElfFile32, ProgramHeader};
+use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionKind};
 
 /// A Thumb instruction's halfwords; the second is 0 for a short one.
 type Instruction = (u16, u16);
@@ -130,5 +131,30 @@ fn nothing_but_the_writing_of_messages_can_panic_in_the_control_image() {
     assert!(into_panics.len() > 10, "the scan misses core's own panics: {into_panics:?}");
     for (from, to) in into_panics {
         assert!(is_core(holding(from)), "{} calls {}", holding(from), holding(to));
+    }
+}
+
+/// Where the parameters stand (memory.x): sectors 2 and 3 of the STM32F405.
+const PARAMETERS: std::ops::Range<u64> = 0x0800_8000..0x0801_0000;
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn no_image_loads_a_byte_into_the_parameters_sectors() {
+    for name in ["ecu-emulated", "bench-emulated"] {
+        let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
+        let elf = std::fs::read(&image.path).expect("the image");
+        let file = ElfFile32::<Endianness>::parse(&*elf).expect("an ELF of 32 bits");
+        let endian = file.endian();
+        let loaded: Vec<(u64, u64)> = file
+            .elf_program_headers()
+            .iter()
+            .filter(|header| header.p_type(endian) == object::elf::PT_LOAD && header.p_filesz(endian) > 0)
+            .map(|header| (header.p_paddr(endian).into(), header.p_filesz(endian).into()))
+            .collect();
+        assert!(loaded.iter().any(|&(from, _)| from == 0x0800_0000), "{name}: the vectors stand in sector 0");
+        assert!(loaded.iter().any(|&(from, _)| from >= PARAMETERS.end), "{name}: the code stands behind them");
+        for (from, bytes) in loaded {
+            assert!(from + bytes <= PARAMETERS.start || from >= PARAMETERS.end, "{name}: {bytes} bytes at {from:#x}");
+        }
     }
 }

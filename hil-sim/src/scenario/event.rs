@@ -74,6 +74,11 @@ impl Event {
 pub struct Events(Vec<Event>);
 
 impl Events {
+    /// Nothing goes wrong.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     pub(super) fn new(events: Vec<Event>) -> Self {
         Self(events)
     }
