@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod can;
 pub mod command;
 pub mod dig;
 mod ecu;
@@ -25,6 +26,7 @@ pub mod pose;
 pub mod sensing;
 pub mod supervisor;
 pub mod travel;
+pub mod trouble;
 pub mod valve;
 
 pub use ecu::Ecu;

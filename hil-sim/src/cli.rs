@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod icd;
 pub mod machine;
 pub mod pose;
 mod progress;
@@ -30,6 +31,8 @@ enum Command {
     Run(run::RunArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
+    /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
+    Icd(icd::IcdArgs),
 }
 
 /// Writes to standard output. A reader that has gone away has had what it wanted.
@@ -48,6 +51,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
+        Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

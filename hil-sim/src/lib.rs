@@ -8,10 +8,12 @@
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
+//! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod icd;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;
