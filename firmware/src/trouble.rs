@@ -35,6 +35,8 @@ const NOT_RESPONDING: u8 = 7;
 const UPDATE_RATE: u8 = 9;
 /// Bad intelligent device or component.
 const BAD_DEVICE: u8 = 12;
+/// Out of calibration.
+const NOT_CALIBRATED: u8 = 13;
 /// Condition exists.
 const EXISTS: u8 = 31;
 
@@ -58,6 +60,7 @@ impl Fault {
             Self::NotAtStart => stop(9, EXISTS),
             Self::FollowingError => stop(10, NOT_RESPONDING),
             Self::Trajectory => stop(11, EXISTS),
+            Self::NotConfigured => stop(12, NOT_CALIBRATED),
         }
     }
 }

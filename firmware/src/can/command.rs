@@ -28,13 +28,14 @@ pub struct ValveCommand {
 }
 
 impl ValveCommand {
-    /// As a lever: −1 to 1, extending positive, 0 when blocked; `None` for floating, which no lever says.
-    pub fn lever(&self) -> Option<f32> {
+    /// As a lever for [`crate::Inputs::levers`]: ±32767 at full flow, extending positive, 0 when blocked; `None` for floating, which
+    /// no lever says.
+    pub fn lever(&self) -> Option<i16> {
+        let deflection = (self.flow * f32::from(i16::MAX) + 0.5) as i16;
         match self.state {
-            ValveState::Blocked => Some(0.0),
-            ValveState::Extend => Some(self.flow),
-            // Not `-flow`: zero must stay +0.
-            ValveState::Retract => Some(0.0 - self.flow),
+            ValveState::Blocked => Some(0),
+            ValveState::Extend => Some(deflection),
+            ValveState::Retract => Some(-deflection),
             ValveState::Floating => None,
         }
     }
