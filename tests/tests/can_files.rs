@@ -26,7 +26,8 @@ fn golden() -> Vec<Golden> {
         .map(|line| {
             let (frame, codes) = line.split_once(" | ").unwrap();
             let [name, id, data] = frame.split(' ').collect::<Vec<_>>().try_into().unwrap();
-            let data: Vec<u8> = (0..data.len()).step_by(2).map(|i| u8::from_str_radix(&data[i..i + 2], 16).unwrap()).collect();
+            let data: Vec<u8> =
+                (0..data.len()).step_by(2).map(|i| u8::from_str_radix(&data[i..i + 2], 16).unwrap()).collect();
             let id = embedded_can::ExtendedId::new(u32::from_str_radix(id, 16).unwrap()).unwrap();
             let codes = codes.split(' ').map(|code| code.split_once('=').unwrap());
             let codes = codes.map(|(signal, code)| (signal, code.parse().unwrap())).collect();
@@ -60,7 +61,8 @@ fn golden_frames_are_made_and_read_by_the_tables() {
         let codes: Vec<_> =
             entry.signals.iter().map(|signal| (signal.name, signal.code_in(payload(&golden.frame)))).collect();
         assert_eq!(codes, golden.codes, "{}", golden.name);
-        let made = entry.signals.iter().zip(&golden.codes).fold(u64::MAX, |p, (signal, &(_, code))| signal.put(p, code));
+        let made =
+            entry.signals.iter().zip(&golden.codes).fold(u64::MAX, |p, (signal, &(_, code))| signal.put(p, code));
         assert_eq!(made, payload(&golden.frame), "{}", golden.name);
         let opens = protect::open(id, made).is_some();
         assert_eq!(opens, entry.header.protected, "{}: its CRC", golden.name);

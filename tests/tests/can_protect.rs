@@ -1,6 +1,6 @@
-//! The protection of a message: SAE J1850's CRC over identifier and bytes, which sees every error of up to three bits.
+//! The protection of a message: AUTOSAR's CRC-8 over identifier and bytes, which sees every error of up to three bits.
 
-use crc::{CRC_8_SAE_J1850, Crc};
+use crc::{CRC_8_AUTOSAR, Crc};
 use firmware::can::id::Identifier;
 use firmware::can::protect::{COUNTER, CRC, crc, open, seal};
 use proptest::prelude::*;
@@ -8,20 +8,21 @@ use proptest::prelude::*;
 /// The checksum of another implementation over the same bytes.
 fn other(id: Identifier, payload: u64) -> u8 {
     let bytes = [&id.raw().to_le_bytes()[..], &payload.to_le_bytes()[..7]].concat();
-    Crc::<u8>::new(&CRC_8_SAE_J1850).checksum(&bytes)
+    Crc::<u8>::new(&CRC_8_AUTOSAR).checksum(&bytes)
 }
 
 const ID: Identifier = Identifier::global(3, 65281, 0x81);
 
 /// What the CRC of one error alone is, under a CRC that is linear: by it every pattern of errors is told from none.
 fn syndromes() -> Vec<u8> {
-    let zero = crc(Identifier::global(0, 0, 0), 0);
+    let none = Identifier::of(embedded_can::ExtendedId::ZERO);
+    let zero = crc(none, 0);
     // The identifier's 29 bits, 56 of the bytes, and 8 of the CRC itself.
     let of_id = (0..29).map(|bit| {
         let raw = embedded_can::ExtendedId::new(1 << bit).unwrap();
         crc(Identifier::of(raw), 0) ^ zero
     });
-    let of_bytes = (0..56).map(|bit| crc(Identifier::global(0, 0, 0), 1 << bit) ^ zero);
+    let of_bytes = (0..56).map(|bit| crc(none, 1 << bit) ^ zero);
     of_id.chain(of_bytes).chain((0..8).map(|bit| 1 << bit)).collect()
 }
 

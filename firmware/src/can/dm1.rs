@@ -81,6 +81,8 @@ struct Transfer {
 pub struct Dm1 {
     tick: u32,
     told: ActiveFaults,
+    /// Active at some time since a frame could last go.
+    seen: ActiveFaults,
     each: [Told; FAULTS],
     /// Ticks since the last DM1 began.
     since: u16,
@@ -96,6 +98,7 @@ impl Dm1 {
         Self {
             tick: 0,
             told: ActiveFaults::NONE,
+            seen: ActiveFaults::NONE,
             each: [Told { occurrences: 0, changed_at: never }; FAULTS],
             since: 0,
             due: true,
@@ -106,7 +109,7 @@ impl Dm1 {
 
     /// This tick's frame, if one is due.
     pub(crate) fn due(&mut self, source: u8, active: ActiveFaults) -> Option<CanFrame> {
-        self.note(active);
+        self.seen = ActiveFaults(self.seen.0 | active.0);
         self.tick = self.tick.wrapping_add(1);
         self.since = self.since.saturating_add(1);
         self.due |= self.since >= SECOND;
@@ -124,15 +127,22 @@ impl Dm1 {
                 }
                 frame
             }
-            None if self.due => self.begin(source),
-            None => return None,
+            None => {
+                self.note();
+                if !self.due {
+                    return None;
+                }
+                self.begin(source)
+            }
         };
         self.gap = DIAGNOSTICS_GAP_MS;
         Some(frame)
     }
 
-    /// Takes in what is active now. A fault that comes and goes within a second of its last change is told as it stands after it.
-    fn note(&mut self, active: ActiveFaults) {
+    /// Takes in what was active since the last frame could go, when the next can: so a change is told when it is noted. A fault
+    /// that comes and goes within a second of its last change is told as it stands after it.
+    fn note(&mut self) {
+        let active = core::mem::take(&mut self.seen);
         if active == self.told {
             return;
         }

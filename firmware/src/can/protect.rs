@@ -1,6 +1,6 @@
 //! The last two bytes of a protected message: a 4-bit alive counter in byte 7, bits 1–4, and a CRC in byte 8.
 //!
-//! The CRC is SAE J1850's: polynomial 1Dₕ, start FFₕ, final exclusive-or FFₕ, most significant bit first. It runs over the 29-bit
+//! The CRC is AUTOSAR's CRC-8: polynomial 2Fₕ, start FFₕ, final exclusive-or FFₕ, most significant bit first. It runs over the 29-bit
 //! identifier as four bytes, lowest first, then bytes 1 to 7: a message under another's identifier does not pass. Over these 96
 //! bits it sees every error of up to three bits, which the 4-bit sum of J1939's own protected messages does not.
 
@@ -12,7 +12,7 @@ pub const COUNTER: Signal = Signal::bits("AliveCounter", 48, 4);
 /// The CRC.
 pub const CRC: Signal = Signal::bits("Crc", 56, 8);
 
-const POLYNOMIAL: u8 = 0x1d;
+const POLYNOMIAL: u8 = 0x2f;
 
 /// What eight shifts make of each byte.
 const TABLE: [u8; 256] = table();

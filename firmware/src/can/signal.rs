@@ -132,7 +132,9 @@ impl Signal {
             0..=0xfa => {
                 let value = code as f32 * self.scale.factor + self.scale.offset;
                 let [low, high] = self.range;
-                if value >= low && value <= high { Ok(value) } else { Err(Unusable::OutOfRange) }
+                // The code nearest to an end belongs to the range, though rounding may put its value beyond.
+                let near = 0.5 * self.scale.factor;
+                if value >= low - near && value <= high + near { Ok(value) } else { Err(Unusable::OutOfRange) }
             }
             0xfe => Err(Unusable::Error),
             0xff => Err(Unusable::NotAvailable),

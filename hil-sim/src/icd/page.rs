@@ -25,7 +25,7 @@ const RULES: &str = "\
   error of the sender's source, FF not available, the rest reserved. Of named states the highest code is not available, the one below
   an error. Reserved codes and values outside the range are rejected.
 - **Alive counter** (`AliveCounter`, byte 7, bits 1–4): counts up by one with every message, from 15 to 0.
-- **CRC** (`Crc`, byte 8): CRC-8 of SAE J1850: polynomial 1D hex, start FF, final exclusive-or FF, most significant bit first, over the
+- **CRC** (`Crc`, byte 8): AUTOSAR's CRC-8: polynomial 2F hex, start FF, final exclusive-or FF, most significant bit first, over the
   29-bit identifier as four bytes, lowest first, then bytes 1 to 7. It sees every error of up to three bits
   (`cargo test -p cross-tests --test can_protect`).
 
