@@ -14,6 +14,7 @@
 
 pub mod board;
 pub mod calibration;
+pub mod can;
 pub mod command;
 pub mod dig;
 mod ecu;
@@ -29,6 +30,7 @@ pub mod sensing;
 pub mod store;
 pub mod supervisor;
 pub mod travel;
+pub mod trouble;
 pub mod valve;
 
 pub use ecu::Ecu;

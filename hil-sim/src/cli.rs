@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod effort;
+pub mod icd;
 pub mod machine;
 mod planar_arm;
 pub mod params;
@@ -40,6 +41,8 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
+    /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
+    Icd(icd::IcdArgs),
 }
 
 /// Writes to standard output. A reader that has gone away has had what it wanted.
@@ -61,6 +64,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
+        Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

@@ -12,11 +12,13 @@
 //! - [`record`] — the controller's parameter record as a file;
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
+//! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
 pub mod effort;
+pub mod icd;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;

@@ -8,10 +8,12 @@
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
 //! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
+//! - [`can`]: the controller's node on a bench bus;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
 pub mod boards;
+pub mod can;
 pub mod differences;
 pub mod golden;
 pub mod jacobians;

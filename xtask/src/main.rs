@@ -2,11 +2,13 @@
 //! the lints. Only std, so that `cargo xtask` builds in a second on a fresh machine.
 //!
 //! - [`arm`] finds or installs a compiler for the ECU, [`emulator`] finds or installs QEMU, both through [`packages`];
+//!   [`cantools`] installs the DBC parser;
 //! - [`image`] builds the images and has [`elf`] look at what was linked;
 //! - [`tests`] runs the suite and counts with [`tally`];
 //! - [`lint`] is formatting, clippy and rustdoc; [`process`] runs the children of all of them.
 
 mod arm;
+mod cantools;
 mod elf;
 mod emulator;
 mod image;
@@ -23,7 +25,7 @@ Usage: cargo xtask COMMAND
 
 Commands:
   test            host tests, then the ARM images, then the tests that run them in the emulator;
-                  installs the ARM target and qemu-system-arm where they are missing.
+                  installs the ARM target, qemu-system-arm and Python's cantools where they are missing.
                   Closing line: N passed, N failed, N skipped
   image [NAME…]   build the ARM images (default: all) and print the path of each ELF on standard output
   lint            formatting, clippy and rustdoc, warnings are errors

@@ -1,9 +1,9 @@
-//! Reads what the test harness prints: the counts, and which tests wait for the emulator.
+//! Reads what the test harness prints: the counts, and which tests wait for what this task installs: the emulator, or cantools.
 
-/// The reason that marks a test as one for the emulator: `#[ignore = "needs the emulator: run cargo xtask test"]`.
-const EMULATOR_REASON: &str = "needs the emulator";
+/// The reasons that mark a test as one for this task, such as `#[ignore = "needs the emulator: run cargo xtask test"]`.
+const REASONS: [&str; 2] = ["needs the emulator", "needs cantools"];
 
-/// The sums of all `test result:` lines of one run, and the tests it left to the emulator.
+/// The sums of all `test result:` lines of one run, and the tests it left to the second run.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
     pub(crate) passed: u64,
@@ -22,7 +22,7 @@ impl Tally {
             self.failed += failed;
             self.ignored += ignored;
         } else if let Some((name, reason)) = ignored_test(&line)
-            && reason.starts_with(EMULATOR_REASON)
+            && REASONS.iter().any(|known| reason.starts_with(known))
         {
             self.for_emulator.push(name.to_owned());
         }
@@ -80,15 +80,16 @@ mod counting {
     }
 
     #[test]
-    fn only_tests_that_wait_for_the_emulator_are_remembered() {
+    fn only_tests_that_wait_for_this_task_are_remembered() {
         let names = tally(
             "test poses::host_equals_emulator ... ignored, needs the emulator: run cargo xtask test\n\
+             test frames::decode ... ignored, needs cantools: run cargo xtask test\n\
              test slow ... ignored, takes an hour\n\
              test plain ... ignored\n\
              test overflow - should panic ... ignored, needs the emulator: run cargo xtask test\n\
              test needs the emulator ... ok\n",
         );
-        assert_eq!(names.for_emulator, ["poses::host_equals_emulator", "overflow"]);
+        assert_eq!(names.for_emulator, ["poses::host_equals_emulator", "frames::decode", "overflow"]);
     }
 
     #[test]

@@ -1,0 +1,66 @@
+//! Each fault's diagnostic trouble code, J1939-73: suspect parameter number (SPN), failure mode identifier (FMI), lamp.
+
+use kinematics_core::Cylinder;
+
+use crate::fault::Fault;
+
+/// The lamp a fault lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lamp {
+    /// The machine goes on.
+    AmberWarning,
+    /// The machine was stopped.
+    RedStop,
+}
+
+/// A trouble code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TroubleCode {
+    /// 19 bits.
+    pub spn: u32,
+    /// 5 bits.
+    pub fmi: u8,
+    /// Its lamp.
+    pub lamp: Lamp,
+}
+
+/// First of the SPNs that J1939 leaves to makers; the last is 524287.
+pub const FIRST_SPN: u32 = 520_192;
+
+/// Data erratic, intermittent or incorrect.
+const ERRATIC: u8 = 2;
+/// Mechanical system not responding or out of adjustment.
+const NOT_RESPONDING: u8 = 7;
+/// Abnormal update rate.
+const UPDATE_RATE: u8 = 9;
+/// Bad intelligent device or component.
+const BAD_DEVICE: u8 = 12;
+/// Out of calibration.
+const NOT_CALIBRATED: u8 = 13;
+/// Condition exists.
+const EXISTS: u8 = 31;
+
+const fn stop(number: u32, fmi: u8) -> TroubleCode {
+    TroubleCode { spn: FIRST_SPN + number, fmi, lamp: Lamp::RedStop }
+}
+
+impl Fault {
+    /// Its trouble code. A number once given is never given to another.
+    pub const fn trouble_code(self) -> TroubleCode {
+        match self {
+            Self::EmergencyStop => stop(0, EXISTS),
+            Self::Overrun => stop(1, BAD_DEVICE),
+            Self::Supply => stop(2, ERRATIC),
+            Self::Sensor(Cylinder::Swing) => stop(3, ERRATIC),
+            Self::Sensor(Cylinder::Boom) => stop(4, ERRATIC),
+            Self::Sensor(Cylinder::Arm) => stop(5, ERRATIC),
+            Self::Sensor(Cylinder::Bucket) => stop(6, ERRATIC),
+            Self::Geometry => stop(7, ERRATIC),
+            Self::CommandStale => stop(8, UPDATE_RATE),
+            Self::NotAtStart => stop(9, EXISTS),
+            Self::FollowingError => stop(10, NOT_RESPONDING),
+            Self::Trajectory => stop(11, EXISTS),
+            Self::NotConfigured => stop(12, NOT_CALIBRATED),
+        }
+    }
+}

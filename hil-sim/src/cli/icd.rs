@@ -1,0 +1,48 @@
+//! `hil icd`: writes the CAN interface page and the DBC file, or checks that they are up to date.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use crate::icd::files;
+
+/// Arguments of `hil icd`.
+#[derive(Debug, Args)]
+pub struct IcdArgs {
+    /// Write nothing; fail when a file is not what would be written
+    #[arg(long)]
+    check: bool,
+    /// The repository's root
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    root: PathBuf,
+}
+
+/// Runs the command; its exit status is 0, 1 when a file is out of date, 2 when one cannot be read or written.
+pub fn main(args: &IcdArgs) -> ExitCode {
+    let mut stale = false;
+    for (name, text) in files() {
+        let path = args.root.join(name);
+        if args.check {
+            match fs::read_to_string(&path) {
+                Ok(found) if found == text => println!("{name}: up to date"),
+                Ok(_) => {
+                    eprintln!("{name}: out of date; run cargo hil icd");
+                    stale = true;
+                }
+                Err(error) => return failed("read", &path, &error),
+            }
+        } else if let Err(error) = fs::write(&path, text) {
+            return failed("write", &path, &error);
+        } else {
+            println!("{name}: written");
+        }
+    }
+    if stale { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+fn failed(what: &str, path: &std::path::Path, error: &std::io::Error) -> ExitCode {
+    eprintln!("error: cannot {what} {}: {error}", path.display());
+    ExitCode::from(2)
+}
