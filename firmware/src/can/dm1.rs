@@ -148,7 +148,7 @@ impl Dm1 {
         }
         for (fault, told) in Fault::ALL.into_iter().zip(&mut self.each) {
             let is_active = active.has(fault);
-            let settled = self.tick.wrapping_sub(told.changed_at) >= SECOND.into();
+            let settled = self.tick.wrapping_sub(told.changed_at) >= u32::from(SECOND);
             if is_active != self.told.has(fault) && settled {
                 self.told.set(fault, is_active);
                 told.changed_at = self.tick;
