@@ -36,6 +36,14 @@ pub enum Fault {
     EmergencyStop,
     /// A tick did not finish in its period.
     Overrun,
+    /// The master cut-off stayed closed though it was opened.
+    CutOffWelded,
+    /// The master cut-off stayed open though it was closed.
+    CutOffStuckOpen,
+    /// The converter of the position sensors and the supply does not answer soundly.
+    SensorConverter,
+    /// The converter of the coil currents does not answer soundly.
+    CoilConverter,
     /// The supply voltage left its range.
     Supply,
     /// A position sensor's code left its range.
@@ -56,9 +64,13 @@ pub enum Fault {
 
 impl Fault {
     /// Every fault, most urgent first.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 17] = [
         Self::EmergencyStop,
         Self::Overrun,
+        Self::CutOffWelded,
+        Self::CutOffStuckOpen,
+        Self::SensorConverter,
+        Self::CoilConverter,
         Self::Supply,
         Self::Sensor(Cylinder::Swing),
         Self::Sensor(Cylinder::Boom),
@@ -88,6 +100,10 @@ impl Fault {
             Self::FollowingError => 11,
             Self::Trajectory => 12,
             Self::NotConfigured => 13,
+            Self::CutOffWelded => 14,
+            Self::CutOffStuckOpen => 15,
+            Self::SensorConverter => 16,
+            Self::CoilConverter => 17,
         }
     }
 
@@ -109,6 +125,10 @@ impl Fault {
             Self::Geometry => "geometry_impossible",
             Self::CommandStale => "command_stale",
             Self::NotConfigured => "not_configured",
+            Self::CutOffWelded => "cut_off_welded",
+            Self::CutOffStuckOpen => "cut_off_stuck_open",
+            Self::SensorConverter => "sensor_converter_unsound",
+            Self::CoilConverter => "coil_converter_unsound",
             Self::NotAtStart => "not_at_start",
             Self::FollowingError => "following_error",
             Self::Trajectory => "trajectory_unreachable",

@@ -108,7 +108,9 @@ impl Inputs {
             Request::Reach => 3,
             Request::Move => 4,
         };
-        let switches = u8::from(self.enable) | u8::from(self.emergency_stop) << 1 | u8::from(self.overrun) << 2;
+        let [sensors_sound, coils_sound] = self.converters_sound;
+        let flags = [self.enable, self.emergency_stop, self.overrun, sensors_sound, coils_sound, self.cut_off_closed];
+        let switches = flags.into_iter().rev().fold(0, |byte, flag| byte << 1 | u8::from(flag));
         w.bytes([self.command_counter, request, switches]);
         for lever in self.levers {
             w.bytes(lever.to_le_bytes());
@@ -134,7 +136,7 @@ impl Inputs {
             value => return Err(FrameError { field: "request", value }),
         };
         let switches = r.byte();
-        if switches > 7 {
+        if switches > 63 {
             return Err(FrameError { field: "switches", value: switches });
         }
         Ok(Self {
@@ -146,6 +148,8 @@ impl Inputs {
             enable: switches & 1 != 0,
             emergency_stop: switches & 2 != 0,
             overrun: switches & 4 != 0,
+            converters_sound: [switches & 8 != 0, switches & 16 != 0],
+            cut_off_closed: switches & 32 != 0,
         })
     }
 }

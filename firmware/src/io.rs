@@ -64,6 +64,11 @@ pub struct Inputs {
     pub request: Request,
     /// The levers, read with [`Request::Levers`]: swing, boom, arm, bucket; ±32767 asks for full speed, extending positive.
     pub levers: [i16; 4],
+    /// Whether each converter answered soundly: that of the position sensors and the supply, that of the coil currents. The codes of one
+    /// that did not mean nothing.
+    pub converters_sound: [bool; 2],
+    /// The master cut-off's own contact is closed.
+    pub cut_off_closed: bool,
     /// The enable switch.
     pub enable: bool,
     /// The emergency stop is pressed.

@@ -12,6 +12,9 @@ use crate::command::Intent;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, Request};
 
+/// A relay falls or closes within these; its contact may be elsewhere for so long.
+const CUT_OFF_TICKS: u16 = 50;
+
 /// What the stages report this tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watched {
@@ -40,12 +43,23 @@ pub struct Supervisor {
     /// The latched fault: cleared only when running begins afresh.
     fault: Option<Fault>,
     enabled_before: bool,
+    /// What the cut-off was told in the last tick.
+    told_closed: bool,
+    /// Ticks in a row the cut-off's contact has not been where it was told.
+    cut_off_astray: u16,
 }
 
 impl Supervisor {
     pub(crate) const fn new(supply_range_v: [f32; 2]) -> Self {
         // A switch found on at power-up is no enable edge.
-        Self { supply_range_v, state: State::Locked, fault: None, enabled_before: true }
+        Self {
+            supply_range_v,
+            state: State::Locked,
+            fault: None,
+            enabled_before: true,
+            told_closed: false,
+            cut_off_astray: 0,
+        }
     }
 
     /// Its state.
@@ -60,6 +74,14 @@ impl Supervisor {
 
     /// Judges one tick.
     pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
+        let gate = self.decide(inputs, watched);
+        self.told_closed = gate == Gate::Open;
+        gate
+    }
+
+    fn decide(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
+        self.cut_off_astray =
+            if inputs.cut_off_closed == self.told_closed { 0 } else { self.cut_off_astray.saturating_add(1) };
         let enable_edge = inputs.enable && !self.enabled_before;
         self.enabled_before = inputs.enable;
         let at_rest = watched.intent.fresh && watched.intent.request == Request::Neutral;
@@ -89,10 +111,17 @@ impl Supervisor {
     /// What is wrong this tick, most urgent first.
     fn wrong(&self, inputs: &Inputs, watched: &Watched) -> Option<Fault> {
         let [low, high] = self.supply_range_v;
+        let [sensors_sound, coils_sound] = inputs.converters_sound;
         if inputs.emergency_stop {
             Some(Fault::EmergencyStop)
         } else if inputs.overrun {
             Some(Fault::Overrun)
+        } else if self.cut_off_astray > CUT_OFF_TICKS {
+            Some(if self.told_closed { Fault::CutOffStuckOpen } else { Fault::CutOffWelded })
+        } else if !sensors_sound {
+            Some(Fault::SensorConverter)
+        } else if !coils_sound {
+            Some(Fault::CoilConverter)
         } else if !(watched.supply_v >= low && watched.supply_v <= high) {
             Some(Fault::Supply)
         } else if watched.stage_fault.is_some() {

@@ -61,6 +61,10 @@ impl Fault {
             Self::FollowingError => stop(10, NOT_RESPONDING),
             Self::Trajectory => stop(11, EXISTS),
             Self::NotConfigured => stop(12, NOT_CALIBRATED),
+            Self::CutOffWelded => stop(13, NOT_RESPONDING),
+            Self::CutOffStuckOpen => stop(14, NOT_RESPONDING),
+            Self::SensorConverter => stop(15, BAD_DEVICE),
+            Self::CoilConverter => stop(16, BAD_DEVICE),
         }
     }
 }

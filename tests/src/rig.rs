@@ -71,6 +71,8 @@ impl Rig {
                 request: Request::Neutral,
                 levers: [0; 4],
                 enable: false,
+                converters_sound: [true; 2],
+                cut_off_closed: false,
                 emergency_stop: false,
                 overrun: false,
             },
@@ -93,7 +95,10 @@ impl Rig {
         if self.sending {
             self.inputs.command_counter = self.inputs.command_counter.wrapping_add(1);
         }
-        self.ecu.tick(&self.inputs)
+        let outputs = self.ecu.tick(&self.inputs);
+        // The relay's contact follows.
+        self.inputs.cut_off_closed = outputs.cut_off_closed;
+        outputs
     }
 
     /// Several ticks; gives the last outputs.

@@ -245,10 +245,26 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
         any::<bool>(),
         prop::bool::weighted(0.02),
         prop::bool::weighted(0.02),
+        (prop::bool::weighted(0.98), prop::bool::weighted(0.98), any::<bool>()),
     )
-        .prop_map(|(codes, supply_code, command_counter, request, levers, enable, emergency_stop, overrun)| {
-            Inputs { codes, supply_code, command_counter, request, levers, enable, emergency_stop, overrun }
-        })
+        .prop_map(
+            |(codes, supply_code, command_counter, request, levers, enable, emergency_stop, overrun, board)| {
+                let (sensors_sound, coils_sound, cut_off_closed) = board;
+                let converters_sound = [sensors_sound, coils_sound];
+                Inputs {
+                    codes,
+                    supply_code,
+                    command_counter,
+                    request,
+                    levers,
+                    converters_sound,
+                    cut_off_closed,
+                    enable,
+                    emergency_stop,
+                    overrun,
+                }
+            },
+        )
 }
 
 proptest! {
@@ -283,5 +299,38 @@ proptest! {
                 outputs.reference.boom, outputs.speeds.swing, outputs.speeds.boom, outputs.speeds.arm, outputs.speeds.bucket];
             prop_assert!(all.iter().all(|x| x.is_finite()));
         }
+    }
+}
+
+#[test]
+fn a_converter_that_answers_unsoundly_stops_the_machine_by_name() {
+    for (which, fault) in [(0, Fault::SensorConverter), (1, Fault::CoilConverter)] {
+        let mut rig = Rig::new();
+        assert!(drives(&rig.dig(DIGGING)));
+        rig.inputs.converters_sound[which] = false;
+        let outputs = rig.tick();
+        assert_eq!(outputs.fault, Some(fault));
+        assert!(is_safe(&outputs));
+    }
+}
+
+#[test]
+fn a_cut_off_that_does_not_follow_is_a_fault_after_fifty_ticks_and_not_before() {
+    let mut rig = Rig::new();
+    rig.dig(DIGGING);
+    // Its contact opens by itself.
+    for tick in 0..52 {
+        rig.inputs.cut_off_closed = false;
+        let outputs = rig.tick();
+        let expected = (tick >= 50).then_some(Fault::CutOffStuckOpen);
+        assert_eq!(outputs.fault, expected, "{tick}");
+    }
+    // Welded: opened long ago, and still closed.
+    let mut rig = Rig::new();
+    for tick in 0..52 {
+        rig.inputs.cut_off_closed = true;
+        let outputs = rig.tick();
+        assert_eq!(outputs.fault, (tick >= 50).then_some(Fault::CutOffWelded), "{tick}");
+        assert!(is_safe(&outputs));
     }
 }

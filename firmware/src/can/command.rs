@@ -131,7 +131,7 @@ impl Slope {
                 _ => return Err(Unusable::Error),
             }
         }
-        let rotor = |deg: f32| Rotor::from_degrees(deg);
+        let rotor = |deg: f32| Rotor::from_turns(deg * (1.0 / 360.0));
         Ok(Self { roll: rotor(roll_deg?), pitch: rotor(0.0 - pitch_deg?) })
     }
 }

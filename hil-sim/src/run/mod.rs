@@ -95,14 +95,17 @@ impl<'a> Run<'a> {
         let crc = Crc::<u64>::new(&CRC_64_XZ);
         let mut hash = crc.digest();
         let mut log = Log::with_capacity(ticks as usize);
+        let mut cut_off_closed = false;
         let started = Instant::now();
         for tick in 0..ticks {
             let time_s = f64::from(tick) / f64::from(TICKS_PER_S);
             let positions = self.plant.positions();
             let codes = self.codes(positions);
-            let inputs = self.operator.inputs(time_s, codes);
+            let inputs = self.operator.inputs(time_s, codes, cut_off_closed);
 
             let reply = place.tick(&inputs)?;
+            // The relay's contact follows within the tick.
+            cut_off_closed = reply.outputs.cut_off_closed;
             hash.update(&reply.outputs.to_bytes());
 
             let held: Vec<_> = self.plant.against_stops().collect();

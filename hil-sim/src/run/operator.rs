@@ -35,8 +35,8 @@ impl Operator {
         }
     }
 
-    /// The controller's inputs at `time_s`, called once a tick.
-    pub fn inputs(&mut self, time_s: f64, codes: [u16; 4]) -> Inputs {
+    /// The controller's inputs at `time_s`, called once a tick; `cut_off_closed` is the cut-off's own contact.
+    pub fn inputs(&mut self, time_s: f64, codes: [u16; 4], cut_off_closed: bool) -> Inputs {
         let last_sent = self.sent;
         let fresh = self.tick.is_multiple_of(MESSAGE_TICKS);
         self.tick = self.tick.wrapping_add(1);
@@ -47,6 +47,8 @@ impl Operator {
             request: if time_s >= self.begin_s { self.task.request() } else { Request::Neutral },
             levers: self.task.levers(time_s),
             enable: time_s >= self.enable_s,
+            converters_sound: [true; 2],
+            cut_off_closed,
             emergency_stop: false,
             overrun: false,
         };
