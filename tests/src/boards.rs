@@ -131,6 +131,29 @@ impl Can for Loopback {
     }
 }
 
+/// A CAN controller between two queues.
+#[derive(Clone, Debug, Default)]
+pub struct Bus {
+    /// Frames on their way to the controller.
+    pub inbound: std::collections::VecDeque<firmware::can::CanFrame>,
+    /// Frames it has sent.
+    pub outbound: Vec<firmware::can::CanFrame>,
+}
+
+impl Can for Bus {
+    type Frame = firmware::can::CanFrame;
+    type Error = embedded_can::ErrorKind;
+
+    fn transmit(&mut self, frame: &Self::Frame) -> nb::Result<Option<Self::Frame>, Self::Error> {
+        self.outbound.push(*frame);
+        Ok(None)
+    }
+
+    fn receive(&mut self) -> nb::Result<Self::Frame, Self::Error> {
+        self.inbound.pop_front().ok_or(nb::Error::WouldBlock)
+    }
+}
+
 /// A watchdog that counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dog(pub u32);
@@ -142,10 +165,15 @@ impl Watchdog for Dog {
 }
 
 /// The reference ECU's parts, simulated.
-pub type SimBoard = Parts<Chip, Pwm, Wire, Wire, Loopback, Dog>;
+pub type SimBoard<C = Loopback> = Parts<Chip, Pwm, Wire, Wire, C, Dog>;
 
 /// A healthy board: converters configured, cut-off open, enable off, emergency stop released.
 pub fn board() -> SimBoard {
+    board_on(Loopback::default())
+}
+
+/// The same on this CAN controller.
+pub fn board_on<C>(can: C) -> SimBoard<C> {
     let mut devices = [Device::One, Device::Two].into_iter().zip(RANGES);
     let adcs = std::array::from_fn(|_| {
         let (device, ranges) = devices.next().expect("two converters");
@@ -162,7 +190,7 @@ pub fn board() -> SimBoard {
         cut_off,
         enable: Wire::new(false),
         emergency_stop_released: Wire::new(true),
-        can: Loopback::default(),
+        can,
         watchdog: Dog::default(),
     }
 }

@@ -1,6 +1,7 @@
 //! What stands between the application and a board's pins.
 //!
 //! - [`Board`] — all the application needs of a board in a tick;
+//! - [`Controller`] — the application on any of them, one control period at a time;
 //! - [`Parts`] — a board put together from embedded-hal's and embedded-can's traits;
 //! - [`Disabled`] — the proof that nothing can move, which writing flash asks for;
 //! - [`ads8688`] — the analogue-to-digital converters of the reference ECU;
@@ -9,6 +10,7 @@
 //! `docs/porting.md` walks through a new board.
 
 pub mod ads8688;
+mod controller;
 mod disabled;
 mod parts;
 pub mod signals;
@@ -18,6 +20,7 @@ use core::fmt;
 use crate::io::Solenoids;
 use ads8688::{AdcError, Codes};
 
+pub use controller::{Controller, ControllerError};
 pub use disabled::{Disabled, NotDisabled};
 pub use parts::{Parts, Watchdog};
 
