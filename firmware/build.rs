@@ -15,4 +15,6 @@ fn main() {
     for argument in ["-Tlink.x", "--nmagic"] {
         println!("cargo:rustc-link-arg-bins={argument}");
     }
+    // Where defmt's strings go; only this image logs.
+    println!("cargo:rustc-link-arg-bin=ecu-stm32f405=-Tdefmt.x");
 }

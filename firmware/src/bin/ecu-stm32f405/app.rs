@@ -1,0 +1,87 @@
+//! One task on a hardware timer: the whole sequence, and last the watchdog. Everything else waits for it.
+
+#[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
+mod app {
+    use crate::flash::ParameterFlash;
+    use crate::pins::{self, Chips, Ecu405, StartError};
+    use crate::{log, safe_state, target};
+    use firmware::TICKS_PER_S;
+    use firmware::board::Controller;
+    use firmware::can::address::{Addresses, Name};
+    use firmware::store::Store;
+    use stm32f4xx_hal::pac::TIM2;
+    use stm32f4xx_hal::prelude::*;
+    use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
+
+    /// A maker sets its own code from SAE and numbers its controllers; 0 is nobody's.
+    const NAME: Name = Name { identity: 1, manufacturer: 0, ecu_instance: 0, function_instance: 0 };
+
+    /// The bucket on the machine at power-up.
+    const BUCKET: usize = 0;
+
+    #[shared]
+    struct Shared {}
+
+    #[local]
+    struct Local {
+        board: Ecu405,
+        controller: Controller,
+        timer: CounterHz<TIM2>,
+    }
+
+    #[init]
+    fn init(mut cx: init::Context) -> (Shared, Local) {
+        target::stack_guard::arm(&mut cx.core.MPU);
+        let mut rcc = pins::clocks(cx.device.RCC);
+        // Outputs off and cut-off open come before anything that can fail.
+        let (gpio, outputs) = pins::outputs_off(
+            (cx.device.GPIOA, cx.device.GPIOB, cx.device.GPIOC),
+            (cx.device.TIM3, cx.device.TIM4),
+            &mut rcc,
+        );
+        let controller = controller(ParameterFlash::new(cx.device.FLASH));
+        let chips = Chips { spi: cx.device.SPI1, dma: cx.device.DMA2, can: cx.device.CAN1, watchdog: cx.device.IWDG };
+        let board = match pins::start(chips, gpio, outputs, &mut rcc) {
+            Ok(board) => board,
+            Err(StartError::Twice) => safe_state::halt(&|| defmt::error!("started twice")),
+            Err(StartError::Adc(chip)) => safe_state::halt(&|| defmt::error!("converter {} does not start", chip)),
+        };
+        let mut timer = cx.device.TIM2.counter_hz(&mut rcc);
+        if timer.start(TICKS_PER_S.Hz()).is_err() {
+            safe_state::halt(&|| defmt::error!("no such tick rate"));
+        }
+        timer.listen(Event::Update);
+        (Shared {}, Local { board, controller, timer })
+    }
+
+    /// The controller of the stored parameters; without them nothing ever moves.
+    fn controller(flash: ParameterFlash) -> Controller {
+        let Ok(mut store) = Store::new(flash) else { safe_state::halt(&|| defmt::error!("no store in these sectors")) };
+        let Ok(loaded) = store.load() else { safe_state::halt(&|| defmt::error!("no approved parameters in flash")) };
+        let Ok(parameters) = loaded.record.parameters_for(BUCKET) else {
+            safe_state::halt(&|| defmt::error!("no such bucket"))
+        };
+        match Controller::new(&parameters, Addresses::DEFAULT, &NAME) {
+            Ok(controller) => controller,
+            Err(_) => safe_state::halt(&|| defmt::error!("the parameters are refused")),
+        }
+    }
+
+    #[idle]
+    fn idle(_: idle::Context) -> ! {
+        let mut said = None;
+        loop {
+            cortex_m::asm::wfi();
+            said = log::say_changes(said);
+        }
+    }
+
+    #[task(binds = TIM2, local = [board, controller, timer, late: bool = false])]
+    fn tick(cx: tick::Context) {
+        cx.local.timer.clear_flags(Flag::Update);
+        let outputs = cx.local.controller.cycle(cx.local.board, *cx.local.late);
+        log::leave(&outputs);
+        // The next period has begun already: this one ended too late, and the next tick says so.
+        *cx.local.late = cx.local.timer.flags().contains(Flag::Update);
+    }
+}

@@ -1,0 +1,3 @@
+//! What every image that runs the application needs.
+
+pub(crate) mod stack_guard;
