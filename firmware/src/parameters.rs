@@ -152,13 +152,13 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
+pub(crate) fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
     let [low, high] = range;
     // Written so that NaN fails.
     if value >= low && value <= high { Ok(()) } else { Err(ParameterError::OutOfRange { field, value, range }) }
 }
 
-fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
+pub(crate) fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
     if below.1 < above.1 { Ok(()) } else { Err(ParameterError::Order { below: below.0, above: above.0 }) }
 }
 

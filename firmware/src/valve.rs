@@ -1,4 +1,17 @@
-//! Last stage: cylinder speeds → coil currents → PWM duties, through each direction's dead band and gain.
+//! Last stage: cylinder speeds → coil currents → PWM duties.
+//!
+//! [`Valve`] does it without measured currents, through each direction's dead band and gain. [`coil_stage::CoilStage`] does it with
+//! them: [`flow_map`] → [`interlock`] → [`ramp`] → [`dither`] → [`current_loop`], watched by [`coil_fault`].
+
+pub mod coil_fault;
+pub mod coil_stage;
+pub mod current_loop;
+pub mod dither;
+pub mod flow_map;
+pub mod interlock;
+pub mod number;
+pub mod ramp;
+mod spool;
 
 use kinematics_core::Cylinders;
 

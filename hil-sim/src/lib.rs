@@ -8,10 +8,12 @@
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
+//! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod coil_trial;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;

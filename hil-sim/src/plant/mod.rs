@@ -1,5 +1,6 @@
 //! The simulated machine: coil duties in, cylinder lengths out. Fixed step, deterministic, the same for host and emulator.
 
+pub mod coil;
 pub mod cylinder;
 pub mod sensors;
 

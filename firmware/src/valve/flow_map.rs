@@ -1,0 +1,122 @@
+//! Speed → current of one direction: the jump over the dead band, then the linearised flow curve.
+
+use serde::{Deserialize, Serialize};
+
+use crate::parameters::{Coil, ParameterError, ValveDirection, ordered, within};
+
+/// Points of a flow curve.
+pub const KNOTS: usize = 9;
+
+/// One direction of a spool, as its calibration leaves it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlowParameters {
+    /// Current at which the cylinder just begins to move, A.
+    pub min_current_a: f32,
+    /// Current of the full speed, A.
+    pub max_current_a: f32,
+    /// Cylinder speed at the largest current, m/s.
+    pub full_speed_mps: f32,
+    /// The jump to the smallest current happens above this speed, m/s.
+    pub on_above_mps: f32,
+    /// The current goes back to zero at this speed or below, m/s; at most `on_above_mps`.
+    pub off_at_mps: f32,
+    /// Share of the full speed at evenly spaced currents from the smallest to the largest: 0 first, 1 last, rising.
+    pub flow_table: [f32; KNOTS],
+}
+
+impl FlowParameters {
+    /// The straight line from the dead band to the full speed: what [`super::Valve`] does.
+    pub fn linear(valve: &ValveDirection, coil: &Coil) -> Self {
+        Self {
+            min_current_a: valve.dead_band * coil.full_scale_a,
+            max_current_a: coil.full_scale_a,
+            full_speed_mps: valve.full_speed_mps,
+            on_above_mps: 0.0,
+            off_at_mps: 0.0,
+            flow_table: [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0],
+        }
+    }
+
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// The first at fault, by name and range.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        within("valve.max_current_a", self.max_current_a.into(), [0.05, 5.0])?;
+        within("valve.min_current_a", self.min_current_a.into(), [0.0, 0.9 * f64::from(self.max_current_a)])?;
+        within("valve.full_speed_mps", self.full_speed_mps.into(), [0.001, 5.0])?;
+        within("valve.on_above_mps", self.on_above_mps.into(), [0.0, 0.1 * f64::from(self.full_speed_mps)])?;
+        within("valve.off_at_mps", self.off_at_mps.into(), [0.0, self.on_above_mps.into()])?;
+        let (first, last) = (self.flow_table.iter().take(1), self.flow_table.iter().skip(KNOTS - 1));
+        for (&end, exact) in first.chain(last).zip([0.0, 1.0]) {
+            within("valve.flow_table", end.into(), [exact; 2])?;
+        }
+        for (below, above) in self.flow_table.iter().zip(self.flow_table.iter().skip(1)) {
+            // A flatter piece would turn a little speed into a leap of current.
+            let least = f64::from(*below) + 0.001;
+            ordered(("valve.flow_table", least), ("its next point by 0.001", (*above).into()))?;
+        }
+        Ok(())
+    }
+}
+
+/// A piece of the curve, from its slow end on.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    from_mps: f32,
+    from_a: f32,
+    amperes_per_mps: f32,
+}
+
+/// The map of one direction, and whether it is beyond the jump.
+#[derive(Clone, Copy, Debug)]
+pub struct FlowMap {
+    pieces: [Piece; KNOTS - 1],
+    max_a: f32,
+    on_above_mps: f32,
+    off_at_mps: f32,
+    flowing: bool,
+}
+
+impl FlowMap {
+    /// From valid parameters.
+    pub fn new(parameters: &FlowParameters) -> Self {
+        let p = parameters;
+        let step_a = (p.max_current_a - p.min_current_a) / (KNOTS - 1) as f32;
+        let mut pieces = [Piece { from_mps: 0.0, from_a: 0.0, amperes_per_mps: 0.0 }; KNOTS - 1];
+        let ends = p.flow_table.iter().zip(p.flow_table.iter().skip(1));
+        for ((index, piece), (below, above)) in pieces.iter_mut().enumerate().zip(ends) {
+            *piece = Piece {
+                from_mps: below * p.full_speed_mps,
+                from_a: p.min_current_a + step_a * index as f32,
+                amperes_per_mps: step_a / ((above - below) * p.full_speed_mps),
+            };
+        }
+        let (on_above_mps, off_at_mps) = (p.on_above_mps, p.off_at_mps);
+        Self { pieces, max_a: p.max_current_a, on_above_mps, off_at_mps, flowing: false }
+    }
+
+    /// Current (A) for a speed (m/s) in this direction; a speed the other way gives none. The curve is inverted by linear interpolation.
+    pub fn current_a(&mut self, speed_mps: f32) -> f32 {
+        let threshold = if self.flowing { self.off_at_mps } else { self.on_above_mps };
+        self.flowing = speed_mps > threshold;
+        if !self.flowing {
+            return 0.0;
+        }
+        let [mut piece, rest @ ..] = self.pieces;
+        for next in rest {
+            if speed_mps < next.from_mps {
+                break;
+            }
+            piece = next;
+        }
+        let current = piece.from_a + piece.amperes_per_mps * (speed_mps - piece.from_mps);
+        if current < self.max_a { current } else { self.max_a }
+    }
+
+    /// The smallest current that moves anything, A.
+    pub fn min_a(&self) -> f32 {
+        let [first, ..] = self.pieces;
+        first.from_a
+    }
+}
