@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod coil;
 pub mod machine;
 pub mod pose;
 mod progress;
@@ -28,6 +29,8 @@ enum Command {
     Machine(machine::MachineArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
+    /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
+    Coil(coil::CoilArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
 }
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {

@@ -4,25 +4,24 @@
 
 mod faults;
 mod report;
+mod table;
 
-pub use faults::{Case, FaultTime, fault_times};
-pub use report::{CoilReport, DitherRow, Step, StepRow};
+pub use faults::{CASES, Case, FaultTime, fault_times};
+pub use report::{CoilReport, DitherRow, STEP_A, Step, StepRow};
+pub(crate) use table::{STEP_HEADS, ms};
 
-use firmware::TICK_S;
-use firmware::io::Solenoids;
+use firmware::io::{Solenoids, Speeds};
 use firmware::parameters::{Coil, ParameterError, ValveDirection};
 use firmware::supervisor::Gate;
 use firmware::valve::coil_fault::FaultyCoil;
 use firmware::valve::coil_stage::{CoilStage, CoilStageParameters};
 
+use crate::plant::STEP_S;
 use crate::plant::coil::{CurrentAdc, Drive, Solenoid, SolenoidModel, SupplyModel};
 use crate::plant::sensors::Noise;
 
 /// The spool in the trial.
 pub const SPOOL: usize = 1;
-
-/// A control period, s.
-pub const STEP_S: f64 = 0.001;
 
 /// The winding of the reference solenoid: 5.3 Ω and 1.2 A as in the scenarios, so that even hot it gets its current from 9 V. L/R is 19 ms.
 pub const REFERENCE: SolenoidModel =
@@ -34,7 +33,7 @@ pub const FULL_SCALE_A: f64 = 1.2;
 /// The stage's parameters for the reference solenoid: a full speed of 1 m/s, no ramp, no dither.
 pub fn parameters() -> CoilStageParameters {
     let coil = Coil { full_scale_a: FULL_SCALE_A as f32, resistance_ohm: REFERENCE.resistance_ohm as f32 };
-    let directions = [0.15, 0.20].map(|dead_band| ValveDirection { dead_band, full_speed_mps: 1.0 });
+    let directions = [0.15, 0.20].map(|dead_band| ValveDirection { dead_band, full_speed: 1.0 });
     CoilStageParameters::plain(&[directions; 4], &coil, REFERENCE.inductance_h as f32)
 }
 
@@ -95,7 +94,7 @@ impl Trial {
             stage: CoilStage::new(parameters)?,
             solenoids: [Solenoid::new(REFERENCE, surroundings.temperature_c); 2],
             surroundings,
-            // 2 mA of noise: 1.6 steps of 12 bit over 2.4 A are 1 mA.
+            // 12 bit over 2.4 A are 0.6 mA.
             adc: CurrentAdc { full_scale_a: sense.full_scale_a.into(), zero_code: sense.zero_code, noise_a: 0.002 },
             noise: Noise::new(surroundings.seed),
             min_a: parameters.spools[SPOOL].flow.map(|flow| flow.min_current_a.into()),
@@ -114,11 +113,9 @@ impl Trial {
     /// One tick at this speed; the cut-off is as the gate.
     pub fn tick(&mut self, gate: Gate, speed_mps: f32) -> Sample {
         let time_s = f64::from(self.ticks) * STEP_S;
-        let idle = self.stage_zero();
-        let mut codes = [[idle; 2]; 4];
+        let mut codes = [[self.adc.zero_code; 2]; 4];
         codes[SPOOL] = self.solenoids.map(|solenoid| self.adc.code(&solenoid, &mut self.noise));
-        let mut speeds = [0.0; 4];
-        speeds[SPOOL] = speed_mps;
+        let speeds = Speeds { boom: speed_mps, ..Speeds::ZERO };
         let supply = self.surroundings.supply;
         let driven = self.stage.drive(gate, &speeds, supply.at(time_s) as f32, &codes);
         let sample = Sample {
@@ -142,10 +139,4 @@ impl Trial {
         let speed = self.speed_for(current_a);
         (0..ticks).map(|_| self.tick(Gate::Open, speed)).collect()
     }
-
-    fn stage_zero(&self) -> u16 {
-        self.adc.zero_code
-    }
 }
-
-const _: () = assert!(TICK_S == STEP_S as f32);

@@ -159,6 +159,8 @@ pub struct CoilWatch {
     per_hottest: Q,
     per_coldest: Q,
     step: Q,
+    /// What the sense line at its end reads as, A.
+    full_scale: Q,
     floor: Q,
     over: Q,
     ticks: [u16; 3],
@@ -173,8 +175,8 @@ pub struct CoilWatch {
 }
 
 impl CoilWatch {
-    /// From valid parameters.
-    pub fn new(parameters: &WatchParameters, coil: &LoopParameters) -> Self {
+    /// From valid parameters; a measured current of `full_scale_a` or more is a switch in overload.
+    pub fn new(parameters: &WatchParameters, coil: &LoopParameters, full_scale_a: f32) -> Self {
         let p = parameters;
         let [coldest, hottest] = p.winding_c;
         let conductance = |winding_c: f32| q(1.0 / (coil.resistance_ohm * (1.0 + COPPER_PER_K * (winding_c - 20.0))));
@@ -182,6 +184,7 @@ impl CoilWatch {
             per_hottest: conductance(hottest),
             per_coldest: conductance(coldest),
             step: q(TICK_S / p.slowest_s),
+            full_scale: q(full_scale_a),
             floor: q(p.floor_a),
             over: q(p.over_current_a),
             ticks: [p.open_ticks, p.short_ticks, p.saturated_ticks],
@@ -203,7 +206,7 @@ impl CoilWatch {
 
         // Half as much again as the coldest coil could carry: ripple and a supply read at the wrong moment are far less.
         let allowed = self.high.saturating_add(Q::from_bits(self.high.to_bits() >> 1)).saturating_add(self.floor);
-        let excess = measured > allowed;
+        let excess = measured > allowed || measured >= self.full_scale;
         let (this, other) = if driven {
             (&mut self.driven_excess, CoilFault::ShortToGround)
         } else {

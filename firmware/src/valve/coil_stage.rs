@@ -1,4 +1,4 @@
-//! The valve stage with measured currents: four spools, cylinder speeds in, duties and coil faults out.
+//! The valve stage with measured currents: four spools, speeds in, duties and coil faults out.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use super::flow_map::FlowParameters;
 use super::number::{Q, q};
 use super::ramp::RampParameters;
 use super::spool::Spool;
-use crate::io::Solenoids;
+use crate::io::{Solenoids, Speeds};
 use crate::parameters::{Coil, ParameterError, ValveDirection, within};
 use crate::supervisor::Gate;
 
@@ -32,6 +32,13 @@ pub struct CurrentSense {
     pub full_scale_a: f32,
     /// Code without current.
     pub zero_code: u16,
+}
+
+impl CurrentSense {
+    /// Current that a line within a hundredth of its end reads as, A.
+    pub(super) fn overload_a(&self) -> f32 {
+        self.full_scale_a * (64880.0 - f32::from(self.zero_code)) / 65536.0
+    }
 }
 
 /// Everything the stage needs to know.
@@ -84,7 +91,7 @@ impl CoilStageParameters {
         self.watch.validate()?;
         within("current_sense.zero_code", self.sense.zero_code.into(), [0.0, 16384.0])?;
         // An excess must lie inside what the converter can say.
-        let visible = 1.0 - f64::from(self.sense.zero_code) / 65536.0;
+        let visible = (64880.0 - f64::from(self.sense.zero_code)) / 65536.0;
         let least = f64::from(self.watch.over_current_a) / visible;
         within("current_sense.full_scale_a", self.sense.full_scale_a.into(), [least, 50.0])?;
         within("released_a", self.released_a.into(), [0.005, 0.5])
@@ -133,18 +140,18 @@ impl CoilStage {
         Q::from_bits(share).saturating_mul(self.full_scale)
     }
 
-    /// One tick, to be called with the gate closed too: speeds (m/s) of swing, boom, arm and bucket, extending positive; the supply (V); the
+    /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the
     /// coils' current codes.
-    pub fn drive(&mut self, gate: Gate, speeds: &[f32; 4], supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
+    pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let supply = self.reading.supply(supply_v);
         let measured = codes.map(|spool| spool.map(|code| self.measured(code)));
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
-        let inputs = speeds.iter().zip(measured);
+        let inputs = speeds.to_array().into_iter().zip(measured);
         for (index, ((spool, (speed, measured)), (currents, duties))) in
             self.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
         {
-            let one = spool.drive(gate, *speed, &supply, measured);
+            let one = spool.drive(gate, speed, &supply, measured);
             (*currents, *duties) = (one.currents, one.duties);
             let fault = one.fault.map(|(side, fault)| FaultyCoil { spool: index, side, fault });
             driven.fault = driven.fault.or(fault);

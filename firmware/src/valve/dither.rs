@@ -3,6 +3,9 @@
 //! The phase is an integer and its mean frequency exact to a millionth of a hertz. At 1000 ticks a second the triangle's shape is exact
 //! where a period is a multiple of four ticks (250, 125, 83⅓, 62.5, 50 … Hz); elsewhere a sample misses the corner, and the peak is lower
 //! by up to 4·f/2000 of the amplitude: 20 % at 100 Hz (ten ticks, corners between samples). Above 250 Hz there is no triangle left.
+//!
+//! The winding sets a limit too: on the falling flank nothing but resistance and diode takes the current down, so the amplitude reached
+//! ends where L·4·f·amplitude = R·i + V_f. Beyond it the mean current rises.
 
 use serde::{Deserialize, Serialize};
 

@@ -10,16 +10,16 @@ pub const KNOTS: usize = 9;
 /// One direction of a spool, as its calibration leaves it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FlowParameters {
-    /// Current at which the cylinder just begins to move, A.
+    /// Current at which the actuator just begins to move, A.
     pub min_current_a: f32,
     /// Current of the full speed, A.
     pub max_current_a: f32,
-    /// Cylinder speed at the largest current, m/s.
-    pub full_speed_mps: f32,
-    /// The jump to the smallest current happens above this speed, m/s.
-    pub on_above_mps: f32,
-    /// The current goes back to zero at this speed or below, m/s; at most `on_above_mps`.
-    pub off_at_mps: f32,
+    /// Speed at the largest current, m/s or rad/s.
+    pub full_speed: f32,
+    /// The jump to the smallest current happens above this speed, m/s or rad/s.
+    pub on_above: f32,
+    /// The current goes back to zero at this speed or below, m/s or rad/s; at most `on_above`.
+    pub off_at: f32,
     /// Share of the full speed at evenly spaced currents from the smallest to the largest: 0 first, 1 last, rising.
     pub flow_table: [f32; KNOTS],
 }
@@ -30,9 +30,9 @@ impl FlowParameters {
         Self {
             min_current_a: valve.dead_band * coil.full_scale_a,
             max_current_a: coil.full_scale_a,
-            full_speed_mps: valve.full_speed_mps,
-            on_above_mps: 0.0,
-            off_at_mps: 0.0,
+            full_speed: valve.full_speed,
+            on_above: 0.0,
+            off_at: 0.0,
             flow_table: [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0],
         }
     }
@@ -44,9 +44,9 @@ impl FlowParameters {
     pub fn validate(&self) -> Result<(), ParameterError> {
         within("valve.max_current_a", self.max_current_a.into(), [0.05, 5.0])?;
         within("valve.min_current_a", self.min_current_a.into(), [0.0, 0.9 * f64::from(self.max_current_a)])?;
-        within("valve.full_speed_mps", self.full_speed_mps.into(), [0.001, 5.0])?;
-        within("valve.on_above_mps", self.on_above_mps.into(), [0.0, 0.1 * f64::from(self.full_speed_mps)])?;
-        within("valve.off_at_mps", self.off_at_mps.into(), [0.0, self.on_above_mps.into()])?;
+        within("valve.full_speed", self.full_speed.into(), [0.001, 5.0])?;
+        within("valve.on_above", self.on_above.into(), [0.0, 0.1 * f64::from(self.full_speed)])?;
+        within("valve.off_at", self.off_at.into(), [0.0, self.on_above.into()])?;
         let (first, last) = (self.flow_table.iter().take(1), self.flow_table.iter().skip(KNOTS - 1));
         for (&end, exact) in first.chain(last).zip([0.0, 1.0]) {
             within("valve.flow_table", end.into(), [exact; 2])?;
@@ -63,9 +63,9 @@ impl FlowParameters {
 /// A piece of the curve, from its slow end on.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    from_mps: f32,
+    from: f32,
     from_a: f32,
-    amperes_per_mps: f32,
+    amperes_per_speed: f32,
 }
 
 /// The map of one direction, and whether it is beyond the jump.
@@ -73,8 +73,8 @@ struct Piece {
 pub struct FlowMap {
     pieces: [Piece; KNOTS - 1],
     max_a: f32,
-    on_above_mps: f32,
-    off_at_mps: f32,
+    on_above: f32,
+    off_at: f32,
     flowing: bool,
 }
 
@@ -83,34 +83,34 @@ impl FlowMap {
     pub fn new(parameters: &FlowParameters) -> Self {
         let p = parameters;
         let step_a = (p.max_current_a - p.min_current_a) / (KNOTS - 1) as f32;
-        let mut pieces = [Piece { from_mps: 0.0, from_a: 0.0, amperes_per_mps: 0.0 }; KNOTS - 1];
+        let mut pieces = [Piece { from: 0.0, from_a: 0.0, amperes_per_speed: 0.0 }; KNOTS - 1];
         let ends = p.flow_table.iter().zip(p.flow_table.iter().skip(1));
         for ((index, piece), (below, above)) in pieces.iter_mut().enumerate().zip(ends) {
             *piece = Piece {
-                from_mps: below * p.full_speed_mps,
+                from: below * p.full_speed,
                 from_a: p.min_current_a + step_a * index as f32,
-                amperes_per_mps: step_a / ((above - below) * p.full_speed_mps),
+                amperes_per_speed: step_a / ((above - below) * p.full_speed),
             };
         }
-        let (on_above_mps, off_at_mps) = (p.on_above_mps, p.off_at_mps);
-        Self { pieces, max_a: p.max_current_a, on_above_mps, off_at_mps, flowing: false }
+        let (on_above, off_at) = (p.on_above, p.off_at);
+        Self { pieces, max_a: p.max_current_a, on_above, off_at, flowing: false }
     }
 
-    /// Current (A) for a speed (m/s) in this direction; a speed the other way gives none. The curve is inverted by linear interpolation.
-    pub fn current_a(&mut self, speed_mps: f32) -> f32 {
-        let threshold = if self.flowing { self.off_at_mps } else { self.on_above_mps };
-        self.flowing = speed_mps > threshold;
+    /// Current (A) for a speed (m/s, a swing motor rad/s) in this direction; a speed the other way gives none. The curve is inverted by linear interpolation.
+    pub fn current_a(&mut self, speed: f32) -> f32 {
+        let threshold = if self.flowing { self.off_at } else { self.on_above };
+        self.flowing = speed > threshold;
         if !self.flowing {
             return 0.0;
         }
         let [mut piece, rest @ ..] = self.pieces;
         for next in rest {
-            if speed_mps < next.from_mps {
+            if speed < next.from {
                 break;
             }
             piece = next;
         }
-        let current = piece.from_a + piece.amperes_per_mps * (speed_mps - piece.from_mps);
+        let current = piece.from_a + piece.amperes_per_speed * (speed - piece.from);
         if current < self.max_a { current } else { self.max_a }
     }
 

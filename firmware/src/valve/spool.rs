@@ -51,7 +51,7 @@ impl Spool {
                 flow: FlowMap::new(&flow),
                 ramp: Ramp::new(&ramp),
                 current: CurrentLoop::new(&stage.coil),
-                watch: CoilWatch::new(&stage.watch, &stage.coil),
+                watch: CoilWatch::new(&stage.watch, &stage.coil, stage.sense.overload_a()),
                 given: Given::NOTHING,
             }
         };

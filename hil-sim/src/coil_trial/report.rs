@@ -4,6 +4,7 @@ use firmware::parameters::ParameterError;
 use serde::Serialize;
 
 use super::{FaultTime, Sample, Surroundings, Trial, fault_times, parameters};
+use crate::plant::STEP_S;
 
 /// Currents of every step, A: from here to there.
 pub const STEP_A: [f64; 2] = [0.3, 1.0];
@@ -12,7 +13,7 @@ const STEP_AT: u32 = 200;
 /// Ticks drawn and judged after it.
 const STEP_TICKS: u32 = 400;
 /// Dither amplitude, A.
-const DITHER_A: f32 = 0.1;
+const DITHER_A: f32 = 0.05;
 
 /// A step's facts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -128,9 +129,9 @@ fn judge(samples: &[Sample]) -> Step {
     let unsettled = shares.iter().rposition(|s| (s - 1.0).abs() > 0.05).map_or(0, |last| last + 1);
     let tail = &shares[shares.len() - 100..];
     Step {
-        rise_s: (reached(0.9) - reached(0.1)) * super::STEP_S,
+        rise_s: (reached(0.9) - reached(0.1)) * STEP_S,
         overshoot: shares.iter().copied().fold(1.0, f64::max) - 1.0,
-        settling_s: unsettled as f64 * super::STEP_S,
+        settling_s: unsettled as f64 * STEP_S,
         steady_error_a: (tail.iter().sum::<f64>() / tail.len() as f64 - 1.0) * (to - from),
     }
 }

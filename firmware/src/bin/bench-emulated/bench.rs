@@ -15,6 +15,7 @@ use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
 use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
+use crate::coils::coils;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
@@ -90,7 +91,7 @@ fn redundancy_3(redundancy: &Redundancy<f32, 3>, (joints, velocity, wish): &Moti
     redundancy.rates(joints, *velocity, wish)
 }
 
-struct Out(Link);
+pub(crate) struct Out(Link);
 
 impl Write for Out {
     fn write_str(&mut self, text: &str) -> core::fmt::Result {
@@ -99,7 +100,13 @@ impl Write for Out {
 }
 
 /// Runs `map` on each of [`RUNS`] inputs and writes the line.
-fn row<I, O>(out: &mut Out, stopwatch: &Stopwatch, name: &str, input: impl Fn(f32) -> I, map: impl Fn(&I) -> O) {
+pub(crate) fn row<I, O>(
+    out: &mut Out,
+    stopwatch: &Stopwatch,
+    name: &str,
+    input: impl Fn(f32) -> I,
+    mut map: impl FnMut(&I) -> O,
+) {
     let mut counts = [0; RUNS];
     for (i, count) in counts.iter_mut().enumerate() {
         let input = black_box(input(i as f32 / (RUNS - 1) as f32));
@@ -185,6 +192,7 @@ fn main() -> ! {
     row(&mut out, s, "singularity_distance_3", |t| chain.jacobian(&joints(t)), singularity_distance_3);
     let motion = |t: f32| (joints(t), Vec2::new(0.3, -t), [0.0, -0.1, t]);
     row(&mut out, s, "redundancy_3", motion, |j| redundancy_3(&redundancy, j));
+    coils(&mut out, s);
     angles(&mut out, s);
     succeed()
 }
