@@ -2,8 +2,9 @@
 
 use firmware::io::Speeds;
 use firmware::supervisor::Gate;
-use firmware::valve::coil_fault::{CoilFault, CoilWatch, Given};
+use firmware::valve::coil_fault::{CoilFault, CoilWatch, FaultyCoil, Given};
 use firmware::valve::coil_stage::CoilStage;
+use firmware::valve::interlock::Side;
 use firmware::valve::number::{Q, q};
 use hil_sim::coil_trial::{Surroundings, Trial, fault_times, parameters};
 use hil_sim::plant::coil::SupplyModel;
@@ -60,25 +61,49 @@ fn a_healthy_coil_never_has_a_fault() {
     assert!(ticks > 400_000);
 }
 
-#[test]
-fn two_currents_in_one_spool_are_a_cross_when_nothing_else_is_wrong() {
+/// A stage whose arm spool was driven outwards for a while and now inwards, and codes by currents.
+fn turned_round() -> (CoilStage, impl Fn([f32; 2]) -> [[u16; 2]; 4]) {
     let p = parameters();
     let mut stage = CoilStage::new(&p).unwrap();
-    let code = |current_a: f32| p.sense.zero_code + (current_a / p.sense.full_scale_a * 65536.0) as u16;
-    let mut codes = [[code(0.0); 2]; 4];
-    let speeds = Speeds { arm: 0.5, ..Speeds::ZERO };
-    for _ in 0..60 {
-        codes[2][0] = code(0.6);
-        assert_eq!(stage.drive(Gate::Open, &speeds, 24.0, &codes).fault.map(|f| f.fault), None);
+    let code = move |current_a: f32| p.sense.zero_code + (current_a / p.sense.full_scale_a * 65536.0) as u16;
+    let codes = move |arm: [f32; 2]| [[code(0.0); 2], [code(0.0); 2], arm.map(code), [code(0.0); 2]];
+    for tick in 0_u8..100 {
+        // Rises in 20 ms to a little less than wanted, as a coil might.
+        let current_a = if tick < 20 { 0.0495 * f32::from(tick) } else { 0.99 };
+        let driven = stage.drive(Gate::Open, &Speeds { arm: 0.8, ..Speeds::ZERO }, 24.0, &codes([current_a, 0.0]));
+        assert_eq!(driven.fault, None);
     }
-    // Small enough to be nobody's excess on its own: it is only a cross while the watch still allows for it.
-    codes[2][1] = code(1.0);
-    let named: Vec<CoilFault> =
-        (0..10).filter_map(|_| stage.drive(Gate::Open, &speeds, 24.0, &codes).fault.map(|f| f.fault)).collect();
-    assert!(
-        !named.is_empty() && named.iter().all(|f| matches!(f, CoilFault::Cross | CoilFault::ShortToSupply)),
-        "{named:?}"
-    );
+    for _ in 0..3 {
+        assert_eq!(stage.drive(Gate::Open, &INWARDS, 24.0, &codes([0.0, 0.0])).fault, None);
+    }
+    (stage, codes)
+}
+
+const INWARDS: Speeds = Speeds { arm: -0.8, ..Speeds::ZERO };
+
+#[test]
+fn two_currents_in_one_spool_are_a_cross_where_each_alone_could_be_right() {
+    let (mut stage, codes) = turned_round();
+    let short_ticks = usize::from(parameters().watch.short_ticks);
+    let faults: Vec<_> =
+        (0..short_ticks).map(|_| stage.drive(Gate::Open, &INWARDS, 24.0, &codes([0.5, 0.5])).fault).collect();
+    assert!(faults.iter().rev().skip(1).all(Option::is_none), "{faults:?}");
+    let cross = faults.last().copied().flatten().unwrap();
+    assert_eq!(cross, FaultyCoil { spool: 2, side: Side::Extend, fault: CoilFault::Cross });
+    assert_eq!(cross.to_string(), "arm_extend_coil_cross");
+}
+
+#[test]
+fn the_most_urgent_of_several_faults_is_named() {
+    let (mut stage, codes) = turned_round();
+    let mut last = None;
+    for _ in 0..60 {
+        let mut now = codes([0.0, 0.0]);
+        // The bucket's coil reads a current nobody gave it, while the arm's stays without.
+        now[3][1] = 40_000;
+        last = stage.drive(Gate::Open, &INWARDS, 24.0, &now).fault;
+    }
+    assert_eq!(last, Some(FaultyCoil { spool: 3, side: Side::Retract, fault: CoilFault::ShortToSupply }));
 }
 
 #[test]
@@ -104,7 +129,17 @@ fn a_few_bad_samples_are_no_fault() {
 }
 
 #[test]
-fn every_name_is_its_own() {
-    let names = CoilFault::ALL.map(CoilFault::name);
-    assert!(names.iter().enumerate().all(|(i, a)| names.iter().skip(i + 1).all(|b| a != b)));
+fn every_fault_of_every_coil_has_its_own_name_and_byte() {
+    let mut names = std::collections::BTreeSet::new();
+    for (fault, spool, side) in CoilFault::ALL
+        .into_iter()
+        .flat_map(|fault| (0..4).flat_map(move |spool| Side::BOTH.map(|side| (fault, spool, side))))
+    {
+        let faulty = FaultyCoil { spool, side, fault };
+        assert_eq!(FaultyCoil::from_code(faulty.code()), Some(faulty));
+        assert!(names.insert(faulty.to_string()), "{faulty}");
+    }
+    assert_eq!(names.len(), 48);
+    let known = (0..=u8::MAX).filter(|&code| FaultyCoil::from_code(code).is_some()).count();
+    assert_eq!(known, 48);
 }

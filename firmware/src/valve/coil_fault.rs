@@ -19,21 +19,21 @@ use crate::parameters::{ParameterError, ordered, within};
 /// Copper's resistance against that at 20 °C, 1/K.
 const COPPER_PER_K: f32 = 0.003_93;
 
-/// What is wrong with a coil.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What is wrong with a coil, most urgent first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CoilFault {
-    /// Voltage, but no current.
-    Open,
-    /// Current, but no duty.
-    ShortToSupply,
     /// Far more current than the voltage can drive through a whole winding.
     ShortToGround,
+    /// Current, but no duty.
+    ShortToSupply,
+    /// Both solenoids of a spool are on, and neither is at fault alone.
+    Cross,
     /// More current than allowed.
     OverCurrent,
+    /// Voltage, but no current.
+    Open,
     /// Full duty, and still too little current: the supply is too low or the resistance too high.
     Saturated,
-    /// Both solenoids of a spool are on.
-    Cross,
 }
 
 impl CoilFault {
@@ -63,6 +63,21 @@ pub struct FaultyCoil {
     pub side: Side,
     /// What is wrong.
     pub fault: CoilFault,
+}
+
+impl FaultyCoil {
+    /// As a byte, 64…111.
+    pub const fn code(&self) -> u8 {
+        64 + self.fault as u8 * 8 + (self.spool as u8 & 3) * 2 + self.side as u8
+    }
+
+    /// From a byte.
+    pub fn from_code(code: u8) -> Option<Self> {
+        let code = code.checked_sub(64)?;
+        let fault = CoilFault::ALL.into_iter().find(|fault| *fault as u8 == code >> 3)?;
+        let side = if code & 1 == 0 { Side::Extend } else { Side::Retract };
+        Some(Self { spool: usize::from(code >> 1 & 3), side, fault })
+    }
 }
 
 impl fmt::Display for FaultyCoil {

@@ -113,7 +113,7 @@ pub struct CoilStage {
 pub struct CoilsDriven {
     /// Wanted currents without dither, and duties.
     pub coils: Coils,
-    /// The first spool's most urgent fault. It stays as long as its cause: latching is the supervisor's.
+    /// The most urgent fault. It stays as long as its cause: latching is the supervisor's.
     pub fault: Option<FaultyCoil>,
 }
 
@@ -153,8 +153,11 @@ impl CoilStage {
         {
             let one = spool.drive(gate, speed, &supply, measured);
             (*currents, *duties) = (one.currents, one.duties);
-            let fault = one.fault.map(|(side, fault)| FaultyCoil { spool: index, side, fault });
-            driven.fault = driven.fault.or(fault);
+            if let Some((side, fault)) = one.fault
+                && driven.fault.is_none_or(|so_far| fault < so_far.fault)
+            {
+                driven.fault = Some(FaultyCoil { spool: index, side, fault });
+            }
         }
         driven
     }

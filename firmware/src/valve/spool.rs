@@ -113,13 +113,17 @@ impl Spool {
     fn judge(&mut self, measured: Solenoids<Q>) -> Option<(Side, CoilFault)> {
         let mut worst: Option<(Side, CoilFault)> = None;
         for ((direction, side), current) in self.directions.iter_mut().zip(Side::BOTH).zip(measured) {
-            let fault = direction.watch.judge(&direction.given, current);
-            worst = fault.map(|fault| (side, fault)).or(worst);
+            if let Some(fault) = direction.watch.judge(&direction.given, current)
+                && worst.is_none_or(|(_, so_far)| fault < so_far)
+            {
+                worst = Some((side, fault));
+            }
         }
         let [extend, retract] = measured;
         // Dying current of one may still be there while the other begins to rise, but never this much of both.
         let both = Q::from_bits(self.released.to_bits() << 1);
-        if self.cross.lasts(extend > both && retract > both, self.cross_ticks) && worst.is_none() {
+        let cross = self.cross.lasts(extend > both && retract > both, self.cross_ticks);
+        if cross && worst.is_none_or(|(_, so_far)| CoilFault::Cross < so_far) {
             let idle = self.interlock.holder().map_or(Side::Extend, Side::opposite);
             worst = Some((idle, CoilFault::Cross));
         }

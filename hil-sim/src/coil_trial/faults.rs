@@ -40,7 +40,7 @@ pub const CASES: [Case; 9] = [
         what: "supply too low for the current",
         broken: Broken::Resistance(1.0),
         current_a: [1.1; 2],
-        supply_v: [24.0, 5.0],
+        supply_v: [24.0, 3.5],
         named: CoilFault::Saturated,
     },
 ];
