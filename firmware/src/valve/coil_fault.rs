@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::current_loop::LoopParameters;
 use super::interlock::Side;
-use super::number::{Q, q};
+use super::number::{Q, Times as _, q};
 use crate::TICK_S;
 use crate::io::SPOOLS;
 use crate::parameters::{ParameterError, ordered, within};
@@ -141,7 +141,7 @@ impl WatchParameters {
 }
 
 /// Ticks a suspicion has lasted; at its limit it stays.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Suspicion(u16);
 
 impl Suspicion {
@@ -187,6 +187,8 @@ pub struct CoilWatch {
     idle_excess: Suspicion,
     over_current: Suspicion,
     saturated: Suspicion,
+    /// Envelopes and suspicions are all at zero.
+    quiet: bool,
 }
 
 impl CoilWatch {
@@ -210,11 +212,16 @@ impl CoilWatch {
             idle_excess: Suspicion::default(),
             over_current: Suspicion::default(),
             saturated: Suspicion::default(),
+            quiet: true,
         }
     }
 
     /// One tick: what the coil was given since the last one, and its current now.
     pub fn judge(&mut self, given: &Given, measured: Q) -> Option<CoilFault> {
+        // Most coils are off most of the time: nothing below would change.
+        if self.quiet && *given == Given::NOTHING && measured <= self.floor {
+            return None;
+        }
         self.follow(given.volts);
         let [open_ticks, short_ticks, saturated_ticks] = self.ticks;
         let driven = given.volts > Q::ZERO;
@@ -236,6 +243,8 @@ impl CoilWatch {
         let too_little = given.at_limit && measured < given.wanted.saturating_sub(short_of);
         let saturated = self.saturated.lasts(too_little, saturated_ticks);
 
+        let suspicions = [self.open, self.driven_excess, self.idle_excess, self.over_current, self.saturated];
+        self.quiet = self.low == Q::ZERO && self.high == Q::ZERO && suspicions == [Suspicion::default(); 5];
         short
             .or(over.then_some(CoilFault::OverCurrent))
             .or(open.then_some(CoilFault::Open))
@@ -247,13 +256,13 @@ impl CoilWatch {
         if volts == Q::ZERO && self.low == Q::ZERO && self.high == Q::ZERO {
             return;
         }
-        let hot = volts.saturating_mul(self.per_hottest);
-        let cold = volts.saturating_mul(self.per_coldest);
+        let hot = volts.times(self.per_hottest);
+        let cold = volts.times(self.per_coldest);
         self.low = if hot > self.low { self.nearer(self.low, hot) } else { hot };
         self.high = if cold < self.high { self.nearer(self.high, cold) } else { cold };
     }
 
     fn nearer(&self, from: Q, to: Q) -> Q {
-        from.saturating_add(to.saturating_sub(from).saturating_mul(self.step))
+        from.saturating_add(to.saturating_sub(from).times(self.step))
     }
 }

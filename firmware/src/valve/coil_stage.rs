@@ -7,7 +7,7 @@ use super::coil_fault::{FaultyCoil, WatchParameters};
 use super::current_loop::{CurrentLoop, LoopParameters};
 use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
-use super::number::{Q, q};
+use super::number::{Q, Times as _, q};
 use super::ramp::RampParameters;
 use super::spool::Spool;
 use crate::io::{Solenoids, Speeds};
@@ -137,7 +137,7 @@ impl CoilStage {
     pub fn measured(&self, code: u16) -> Q {
         // 16 of the 20 fractional bits are the code's.
         let share = (i32::from(code) - i32::from(self.zero_code)) << 4;
-        Q::from_bits(share).saturating_mul(self.full_scale)
+        Q::from_bits(share).times(self.full_scale)
     }
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the

@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::{Q, bounded, q, si};
+use super::number::{Q, Times as _, bounded, q, si};
 use crate::TICK_S;
 use crate::parameters::{ParameterError, within};
 
@@ -153,24 +153,24 @@ impl CurrentLoop {
     /// Duty, a fraction, for the wanted current and the dither of the next tick, all in A.
     pub fn step(&mut self, wanted: Q, dither: Q, measured: Q, supply: &SupplyNow) -> Q {
         let error = self.reference.saturating_add(self.dither).saturating_sub(measured);
-        let resistive = self.resistance.saturating_mul(self.reference.saturating_add(dither));
-        let shaken = self.inductance_per_tick.saturating_mul(dither.saturating_sub(self.dither));
-        let drive = self.inductance_per_response.saturating_mul(wanted.saturating_sub(self.reference));
+        let resistive = self.resistance.times(self.reference.saturating_add(dither));
+        let shaken = self.inductance_per_tick.times(dither.saturating_sub(self.dither));
+        let drive = self.inductance_per_response.times(wanted.saturating_sub(self.reference));
         let voltage = resistive
             .saturating_add(shaken)
             .saturating_add(drive)
-            .saturating_add(self.proportional.saturating_mul(error))
+            .saturating_add(self.proportional.times(error))
             .saturating_add(self.integral);
         let given = bounded(voltage, self.freewheel.saturating_neg(), supply.most);
 
         let excess = given.saturating_sub(voltage);
-        let moved = self.ticks_per_inductance.saturating_mul(drive.saturating_add(excess));
+        let moved = self.ticks_per_inductance.times(drive.saturating_add(excess));
         self.reference = core::cmp::max(self.reference.saturating_add(moved), Q::ZERO);
         self.dither = dither;
         let farther_out = (excess < Q::ZERO && error > Q::ZERO) || (excess > Q::ZERO && error < Q::ZERO);
         if !farther_out {
-            self.integral = self.integral.saturating_add(self.integral_per_tick.saturating_mul(error));
+            self.integral = self.integral.saturating_add(self.integral_per_tick.times(error));
         }
-        bounded(given.saturating_add(self.freewheel).saturating_mul(supply.per_volt), Q::ZERO, Q::ONE)
+        bounded(given.saturating_add(self.freewheel).times(supply.per_volt), Q::ZERO, Q::ONE)
     }
 }

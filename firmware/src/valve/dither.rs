@@ -9,7 +9,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::{Q, q};
+use super::number::{Q, Times as _, q};
 use crate::TICK_S;
 use crate::parameters::{ParameterError, within};
 
@@ -74,8 +74,8 @@ impl Dither {
         let height = self.phase.wrapping_add(1 << 30).cast_signed().unsigned_abs();
         // 0…2³¹ → −1…1; both differences fit.
         let triangle = Q::from_bits((height >> 10).cast_signed().saturating_sub(1 << 20));
-        let faded = core::cmp::min(current.saturating_mul(self.per_fade), Q::ONE);
-        triangle.saturating_mul(self.amplitude).saturating_mul(faded)
+        let faded = core::cmp::min(current.times(self.per_fade), Q::ONE);
+        triangle.times(self.amplitude).times(faded)
     }
 
     /// Back to the middle of its rise.

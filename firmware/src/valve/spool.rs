@@ -6,7 +6,7 @@ use super::current_loop::{CurrentLoop, SupplyNow};
 use super::dither::Dither;
 use super::flow_map::FlowMap;
 use super::interlock::{Interlock, Side};
-use super::number::{Q, duty_code, q};
+use super::number::{Q, Times as _, duty_code, q};
 use super::ramp::Ramp;
 use crate::io::Solenoids;
 use crate::supervisor::Gate;
@@ -141,7 +141,7 @@ impl Direction {
         let wanted = q(current_a);
         let duty = self.current.step(wanted, dither, measured, supply);
         self.given = Given {
-            volts: duty.saturating_mul(supply.volts),
+            volts: duty.times(supply.volts),
             wanted: wanted.saturating_add(dither),
             at_limit: supply.at_limit(duty),
         };
