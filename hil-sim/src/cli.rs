@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod coil;
 pub mod machine;
+mod planar_arm;
 pub mod pose;
 mod progress;
 pub mod run;

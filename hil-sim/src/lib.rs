@@ -6,6 +6,7 @@
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
+//! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`report`] — what a run looks like;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
@@ -18,6 +19,7 @@ pub mod labels;
 pub mod machine_file;
 pub mod machine_report;
 pub mod place;
+pub mod planar_arm;
 pub mod plant;
 pub mod report;
 pub mod run;

@@ -14,6 +14,7 @@ mod dig;
 mod figures;
 mod html;
 mod machine;
+mod planar_arm;
 mod run;
 mod series;
 mod table;
@@ -23,6 +24,7 @@ mod tests;
 pub use coil::write_coil;
 pub use dig::draw_only;
 pub use machine::write_machine;
+pub use planar_arm::{planar_arm_table, write_planar_arm};
 pub use run::write;
 pub use table::table;
 

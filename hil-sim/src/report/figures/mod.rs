@@ -13,7 +13,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::series::{Piece, Point};
 
-pub(super) use draw::svg;
+pub(super) use draw::{beside, svg};
 
 /// Colours that stay apart for colour-blind eyes: Okabe and Ito 2008.
 pub(super) mod colours {
