@@ -2,10 +2,10 @@
 
 use firmware::io::Speeds;
 use firmware::supervisor::Gate;
-use firmware::valve::coil_fault::{CoilFault, CoilWatch, FaultyCoil, Given};
+use firmware::valve::coil_fault::{CoilFault, FaultyCoil};
 use firmware::valve::coil_stage::CoilStage;
+use firmware::valve::coil_watch::{CoilWatch, Given, WatchLimits};
 use firmware::valve::interlock::Side;
-use firmware::valve::number::{Q, q};
 use hil_sim::coil_trial::{Surroundings, Trial, fault_times, parameters};
 use hil_sim::plant::coil::SupplyModel;
 
@@ -109,9 +109,10 @@ fn the_most_urgent_of_several_faults_is_named() {
 #[test]
 fn more_current_than_allowed_is_named_though_the_voltage_explains_it() {
     let p = parameters();
-    let mut watch = CoilWatch::new(&p.watch, &p.coil, 2.3);
-    let given = Given { volts: q(12.0), wanted: q(1.0), at_limit: false };
-    let named: Vec<_> = (0..p.watch.short_ticks).map(|_| watch.judge(&given, q(1.8))).collect();
+    let limits = WatchLimits::new(&p.watch, &p.coil, 2.3);
+    let mut watch = CoilWatch::default();
+    let given = Given { volts: 12.0, wanted_a: 1.0, at_limit: false };
+    let named: Vec<_> = (0..p.watch.short_ticks).map(|_| watch.judge(&limits, &given, 1.8)).collect();
     assert_eq!(named.iter().position(Option::is_some), Some(usize::from(p.watch.short_ticks) - 1));
     assert_eq!(named.last().copied().flatten(), Some(CoilFault::OverCurrent));
 }
@@ -119,13 +120,14 @@ fn more_current_than_allowed_is_named_though_the_voltage_explains_it() {
 #[test]
 fn a_few_bad_samples_are_no_fault() {
     let p = parameters();
-    let mut watch = CoilWatch::new(&p.watch, &p.coil, 2.3);
+    let limits = WatchLimits::new(&p.watch, &p.coil, 2.3);
+    let mut watch = CoilWatch::default();
     for tick in 0..10_000 {
-        let given = Given { volts: q(5.0), wanted: q(0.9), at_limit: false };
-        let measured = if tick % 6 == 0 { q(0.9) } else { q(2.2) };
-        assert_eq!(watch.judge(&given, measured), None);
+        let given = Given { volts: 5.0, wanted_a: 0.9, at_limit: false };
+        let measured = if tick % 6 == 0 { 0.9 } else { 2.2 };
+        assert_eq!(watch.judge(&limits, &given, measured), None);
     }
-    assert_eq!(watch.judge(&Given::NOTHING, Q::ZERO), None);
+    assert_eq!(watch.judge(&limits, &Given::NOTHING, 0.0), None);
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use firmware::parameters::{Coil, ValveDirection};
 use firmware::valve::coil_stage::{CoilStage, CoilStageParameters};
+use firmware::valve::current_loop::{CurrentLoop, LoopGains};
 use firmware::valve::dither::{Dither, DitherParameters};
 use firmware::valve::flow_map::{FlowMap, FlowParameters};
-use firmware::valve::number::{Q, duty_code, q, si};
+use firmware::valve::number::{duty_code, fraction, share};
 use firmware::valve::ramp::{Ramp, RampParameters};
 use hil_sim::coil_trial;
 
@@ -83,7 +84,7 @@ fn dither_has_its_frequency_its_amplitude_and_no_mean() {
     {
         let p = DitherParameters { frequency_hz, amplitude_a: 0.1, fade_below_a: 0.3 };
         let mut dither = Dither::new(&p);
-        let values: Vec<f32> = (0..10_000).map(|_| si(dither.step(q(0.6)))).collect();
+        let values: Vec<f32> = (0..10_000).map(|_| dither.step(0.6)).collect();
         let rises = values.windows(2).filter(|pair| pair[0] <= 0.0 && pair[1] > 0.0).count();
         assert!((rises as f32 - 10.0 * frequency_hz).abs() <= 1.0, "{frequency_hz} Hz: {rises} rises in 10 s");
         let peak = values.iter().copied().fold(0.0, f32::max);
@@ -97,24 +98,37 @@ fn dither_has_its_frequency_its_amplitude_and_no_mean() {
 fn dither_fades_with_the_current_and_never_asks_for_less_than_none() {
     let mut dither = Dither::new(&DitherParameters { frequency_hz: 62.5, amplitude_a: 0.1, fade_below_a: 0.2 });
     for i in 0..2000 {
-        let current = q(0.3 * (i as f32 / 2000.0));
+        let current = 0.3 * (i as f32 / 2000.0);
         let value = dither.step(current);
-        assert!(current.saturating_add(value) >= -Q::DELTA, "{current} {value}");
-        assert!(si(value).abs() <= 0.5 * si(current) + 1e-5);
+        assert!(current + value >= 0.0, "{current} {value}");
+        assert!(value.abs() <= 0.5 * current + 1e-6);
     }
-    assert_eq!(dither.step(Q::ZERO), Q::ZERO);
+    assert_eq!(dither.step(0.0), 0.0);
     let mut none = Dither::new(&DitherParameters::NONE);
-    assert!((0..100).all(|_| none.step(Q::ONE) == Q::ZERO));
+    assert!((0..100).all(|_| none.step(1.0) == 0.0));
 }
 
 #[test]
-fn numbers_saturate_and_the_duty_fills_the_timer() {
-    assert_eq!(q(1e9), Q::MAX);
-    assert_eq!(q(-1e9), Q::MIN);
-    assert_eq!(q(f32::NAN), Q::ZERO);
-    assert_eq!(si(q(1.203)), (1.203_f32 * 1_048_576.0).trunc() / 1_048_576.0);
-    assert_eq!([duty_code(Q::ONE), duty_code(Q::ZERO), duty_code(q(-0.3)), duty_code(Q::MAX)], [65535, 0, 0, 65535]);
-    assert_eq!(duty_code(q(0.5)), 32768);
+fn a_code_is_a_share_of_full_scale_and_the_duty_fills_the_timer() {
+    assert_eq!([share(2048, 2048), share(2047, 2048)].map(fraction), [0.0, -1.0 / 65536.0]);
+    assert_eq!(fraction(share(65535, 0)), 65535.0 / 65536.0);
+    assert_eq!([1.0, 0.0, -0.3, 1e9, f32::NAN].map(duty_code), [65535, 0, 0, 65535, 0]);
+    assert_eq!(duty_code(0.5), 32768);
+}
+
+#[test]
+fn no_supply_makes_a_duty_that_is_no_fraction() {
+    let gains = LoopGains::new(&coil_trial::parameters().coil);
+    for supply_v in [0.0, -5.0, 1.0, 24.0, f32::MAX, f32::INFINITY, f32::NAN] {
+        let supply = gains.supply(supply_v);
+        assert!((1.0..=1000.0).contains(&supply.volts), "{supply_v}");
+        let mut current = CurrentLoop::start(0.0);
+        for tick in 0_u8..200 {
+            let measured_a = if tick < 100 { 0.0 } else { 2.3 };
+            let duty = current.step(&gains, &supply, 1.0, 0.05, measured_a);
+            assert!((0.0..=1.0).contains(&duty), "{supply_v} V: {duty}");
+        }
+    }
 }
 
 type Spoil = fn(&mut CoilStageParameters);

@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::Coils;
 use super::coil_fault::{FaultyCoil, WatchParameters};
-use super::current_loop::{CurrentLoop, LoopParameters};
+use super::current_loop::LoopParameters;
 use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
-use super::number::{Q, Times as _, q};
+use super::number::{fraction, share};
 use super::ramp::RampParameters;
-use super::spool::Spool;
+use super::spool::{Shared, Spool};
 use crate::io::{Solenoids, Speeds};
 use crate::parameters::{Coil, ParameterError, ValveDirection, within};
 use crate::supervisor::Gate;
@@ -101,11 +101,12 @@ impl CoilStageParameters {
 /// The stage.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilStage {
-    spools: [Spool; 4],
-    /// Knows how to read the supply; all loops are alike in that.
-    reading: CurrentLoop,
-    full_scale: Q,
+    shared: Shared,
+    full_scale_a: f32,
     zero_code: u16,
+    /// Currents up to this code are never judged.
+    floor_code: u16,
+    spools: [Spool; 4],
 }
 
 /// What a tick gives.
@@ -125,38 +126,41 @@ impl CoilStage {
     pub fn new(parameters: &CoilStageParameters) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
+        let floor_codes = p.watch.floor_a / p.sense.full_scale_a * 65536.0;
         Ok(Self {
-            spools: p.spools.map(|spool| Spool::new(&spool, p)),
-            reading: CurrentLoop::new(&p.coil),
-            full_scale: q(p.sense.full_scale_a),
+            shared: Shared::new(p),
+            full_scale_a: p.sense.full_scale_a,
             zero_code: p.sense.zero_code,
+            // Both casts are of numbers within the code's range.
+            floor_code: p.sense.zero_code.saturating_add(floor_codes as u16),
+            spools: p.spools.map(|spool| Spool::new(&spool, p.released_a)),
         })
-    }
-
-    /// A code as a current, A; below the zero code it is negative.
-    pub fn measured(&self, code: u16) -> Q {
-        // 16 of the 20 fractional bits are the code's.
-        let share = (i32::from(code) - i32::from(self.zero_code)) << 4;
-        Q::from_bits(share).times(self.full_scale)
     }
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the
     /// coils' current codes.
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
-        let supply = self.reading.supply(supply_v);
-        let measured = codes.map(|spool| spool.map(|code| self.measured(code)));
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
+        let (full_scale_a, zero_code, floor_code) = (self.full_scale_a, self.zero_code, self.floor_code);
+        let supply = self.shared.gains.supply(supply_v);
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
-        let inputs = speeds.to_array().into_iter().zip(measured);
-        for (index, ((spool, (speed, measured)), (currents, duties))) in
+        let inputs = speeds.to_array().into_iter().zip(codes);
+        for (index, ((spool, (speed, codes)), (currents, duties))) in
             self.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
         {
-            let one = spool.drive(gate, speed, &supply, measured);
-            (*currents, *duties) = (one.currents, one.duties);
-            if let Some((side, fault)) = one.fault
+            let [extend, retract] = *codes;
+            if extend <= floor_code && retract <= floor_code && spool.sleeps(speed) {
+                continue;
+            }
+            let measured_a = codes.map(|code| full_scale_a * fraction(share(code, zero_code)));
+            if let Some((side, fault)) = spool.judge(&self.shared, measured_a)
                 && driven.fault.is_none_or(|so_far| fault < so_far.fault)
             {
                 driven.fault = Some(FaultyCoil { spool: index, side, fault });
+            }
+            if let Some(one) = spool.drive(&self.shared, gate, speed, &supply, measured_a) {
+                *currents = one.side.join(one.current_a, 0.0);
+                *duties = one.side.join(one.duty, 0);
             }
         }
         driven

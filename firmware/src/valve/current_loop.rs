@@ -14,8 +14,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::{Q, Times as _, bounded, q, si};
 use crate::TICK_S;
+use crate::io::limited;
 use crate::parameters::{ParameterError, within};
 
 /// The coils, all alike, and their loops' tuning.
@@ -80,97 +80,90 @@ impl LoopParameters {
 #[derive(Clone, Copy, Debug)]
 pub struct SupplyNow {
     /// Voltage, V.
-    pub volts: Q,
+    pub volts: f32,
     /// 1/(V + V_f), 1/V.
-    per_volt: Q,
+    per_volt: f32,
     /// Highest mean voltage of a coil, V.
-    most: Q,
-    /// The largest duty, less a hair that rounding may take.
-    limit: Q,
+    most_v: f32,
 }
 
-impl SupplyNow {
-    /// This duty is as large as it can be.
-    pub fn at_limit(&self, duty: Q) -> bool {
-        duty >= self.limit
-    }
-}
-
-/// A coil's loop.
+/// What all the loops calculate with.
 #[derive(Clone, Copy, Debug)]
-pub struct CurrentLoop {
-    resistance: Q,
-    inductance_per_tick: Q,
-    inductance_per_response: Q,
-    ticks_per_inductance: Q,
-    proportional: Q,
-    integral_per_tick: Q,
-    freewheel: Q,
+pub struct LoopGains {
+    resistance_ohm: f32,
+    inductance_per_tick: f32,
+    inductance_per_response: f32,
+    ticks_per_inductance: f32,
+    proportional: f32,
+    integral_per_tick: f32,
+    freewheel_v: f32,
     max_duty: f32,
-    reference: Q,
-    dither: Q,
-    integral: Q,
 }
 
-impl CurrentLoop {
-    /// At rest, from valid parameters.
+impl LoopGains {
+    /// From valid parameters.
     pub fn new(parameters: &LoopParameters) -> Self {
         let p = parameters;
         Self {
-            resistance: q(p.resistance_ohm),
-            inductance_per_tick: q(p.inductance_h / TICK_S),
-            inductance_per_response: q(p.inductance_h / p.response_s),
-            ticks_per_inductance: q(TICK_S / p.inductance_h),
-            proportional: q(p.proportional_v_per_a),
-            integral_per_tick: q(p.integral_v_per_a_s * TICK_S),
-            freewheel: q(p.freewheel_v),
+            resistance_ohm: p.resistance_ohm,
+            inductance_per_tick: p.inductance_h / TICK_S,
+            inductance_per_response: p.inductance_h / p.response_s,
+            ticks_per_inductance: TICK_S / p.inductance_h,
+            proportional: p.proportional_v_per_a,
+            integral_per_tick: p.integral_v_per_a_s * TICK_S,
+            freewheel_v: p.freewheel_v,
             max_duty: p.max_duty,
-            reference: Q::ZERO,
-            dither: Q::ZERO,
-            integral: Q::ZERO,
         }
     }
 
-    /// This tick's supply. Below 1 V it counts as 1 V, so that nothing divides by zero.
+    /// This tick's supply. Outside 1…1000 V it counts as the nearer of the two, and NaN as 1 V, so that every quotient is finite.
+    #[inline(always)]
     pub fn supply(&self, supply_v: f32) -> SupplyNow {
-        let volts = if supply_v > 1.0 { supply_v } else { 1.0 };
-        let freewheel = si(self.freewheel);
-        let swing = volts + freewheel;
-        SupplyNow {
-            volts: q(volts),
-            per_volt: q(1.0 / swing),
-            most: q(self.max_duty * swing - freewheel),
-            limit: q(self.max_duty - 0.001),
-        }
+        let volts = if supply_v > 1.0 { limited(supply_v, 1.0, 1000.0) } else { 1.0 };
+        let swing = volts + self.freewheel_v;
+        SupplyNow { volts, per_volt: 1.0 / swing, most_v: self.max_duty * swing - self.freewheel_v }
     }
 
-    /// No voltage; the next start begins at the current that is there.
-    pub fn off(&mut self, measured: Q) -> Q {
-        (self.reference, self.dither, self.integral) = (measured, Q::ZERO, Q::ZERO);
-        Q::ZERO
+    /// This duty is as large as it can be, less a hair that rounding may take.
+    #[inline(always)]
+    pub fn at_limit(&self, duty: f32) -> bool {
+        duty >= self.max_duty - 0.001
+    }
+}
+
+/// A loop: where its reference, dither (A) and integral (V) are.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurrentLoop {
+    reference_a: f32,
+    dither_a: f32,
+    integral_v: f32,
+}
+
+impl CurrentLoop {
+    /// Begins at the current that is there, A.
+    #[inline(always)]
+    pub fn start(measured_a: f32) -> Self {
+        Self { reference_a: measured_a, dither_a: 0.0, integral_v: 0.0 }
     }
 
     /// Duty, a fraction, for the wanted current and the dither of the next tick, all in A.
-    pub fn step(&mut self, wanted: Q, dither: Q, measured: Q, supply: &SupplyNow) -> Q {
-        let error = self.reference.saturating_add(self.dither).saturating_sub(measured);
-        let resistive = self.resistance.times(self.reference.saturating_add(dither));
-        let shaken = self.inductance_per_tick.times(dither.saturating_sub(self.dither));
-        let drive = self.inductance_per_response.times(wanted.saturating_sub(self.reference));
-        let voltage = resistive
-            .saturating_add(shaken)
-            .saturating_add(drive)
-            .saturating_add(self.proportional.times(error))
-            .saturating_add(self.integral);
-        let given = bounded(voltage, self.freewheel.saturating_neg(), supply.most);
+    #[inline(always)]
+    pub fn step(&mut self, g: &LoopGains, supply: &SupplyNow, wanted_a: f32, dither_a: f32, measured_a: f32) -> f32 {
+        let error = self.reference_a + self.dither_a - measured_a;
+        let resistive = g.resistance_ohm * (self.reference_a + dither_a);
+        let shaken = g.inductance_per_tick * (dither_a - self.dither_a);
+        let drive = g.inductance_per_response * (wanted_a - self.reference_a);
+        let voltage = resistive + shaken + drive + g.proportional * error + self.integral_v;
+        let given = limited(voltage, -g.freewheel_v, supply.most_v);
 
-        let excess = given.saturating_sub(voltage);
-        let moved = self.ticks_per_inductance.times(drive.saturating_add(excess));
-        self.reference = core::cmp::max(self.reference.saturating_add(moved), Q::ZERO);
-        self.dither = dither;
-        let farther_out = (excess < Q::ZERO && error > Q::ZERO) || (excess > Q::ZERO && error < Q::ZERO);
-        if !farther_out {
-            self.integral = self.integral.saturating_add(self.integral_per_tick.times(error));
+        let excess = given - voltage;
+        let reference = self.reference_a + g.ticks_per_inductance * (drive + excess);
+        self.reference_a = if reference > 0.0 { reference } else { 0.0 };
+        self.dither_a = dither_a;
+        // Opposite signs: u is out of bounds and the error would drive it farther out.
+        if excess * error >= 0.0 {
+            self.integral_v += g.integral_per_tick * error;
         }
-        bounded(given.saturating_add(self.freewheel).times(supply.per_volt), Q::ZERO, Q::ONE)
+        limited((given + g.freewheel_v) * supply.per_volt, 0.0, 1.0)
     }
 }

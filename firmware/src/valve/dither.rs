@@ -9,7 +9,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::number::{Q, Times as _, q};
 use crate::TICK_S;
 use crate::parameters::{ParameterError, within};
 
@@ -41,13 +40,17 @@ impl DitherParameters {
     }
 }
 
+/// −1…1 in steps of 2⁻³⁰.
+type Triangle = fixed::types::I2F30;
+
 /// A triangle generator.
 #[derive(Clone, Copy, Debug)]
 pub struct Dither {
     /// Phase a tick; a whole turn is 2³².
     step: u32,
-    amplitude: Q,
-    per_fade: Q,
+    amplitude_a: f32,
+    /// Amplitude over the current below which it fades, at most 1.
+    per_current: f32,
     phase: u32,
 }
 
@@ -58,27 +61,27 @@ impl Dither {
         let turns_per_tick = f64::from(p.frequency_hz) * f64::from(TICK_S);
         Self {
             step: (turns_per_tick * 4_294_967_296.0) as u32,
-            amplitude: q(p.amplitude_a),
-            per_fade: q(1.0 / p.fade_below_a),
+            amplitude_a: p.amplitude_a,
+            per_current: p.amplitude_a / p.fade_below_a,
             phase: 0,
         }
     }
 
-    /// The dither of the next tick on this current, A.
-    pub fn step(&mut self, current: Q) -> Q {
+    /// The dither of the next tick on this current, both in A.
+    #[inline(always)]
+    pub fn step(&mut self, current_a: f32) -> f32 {
         self.phase = self.phase.wrapping_add(self.step);
-        if self.amplitude == Q::ZERO {
-            return Q::ZERO;
-        }
         // |phase| as a signed number is a triangle; a quarter turn ahead it begins at its middle.
         let height = self.phase.wrapping_add(1 << 30).cast_signed().unsigned_abs();
-        // 0…2³¹ → −1…1; both differences fit.
-        let triangle = Q::from_bits((height >> 10).cast_signed().saturating_sub(1 << 20));
-        let faded = core::cmp::min(current.times(self.per_fade), Q::ONE);
-        triangle.times(self.amplitude).times(faded)
+        // 0…2³¹ → −1…1.
+        let triangle = Triangle::from_bits(height.wrapping_sub(1 << 30).cast_signed());
+        let faded = self.per_current * current_a;
+        let amplitude = if faded < self.amplitude_a { faded } else { self.amplitude_a };
+        amplitude * (triangle.to_bits() as f32 / 1_073_741_824.0)
     }
 
     /// Back to the middle of its rise.
+    #[inline(always)]
     pub fn reset(&mut self) {
         self.phase = 0;
     }

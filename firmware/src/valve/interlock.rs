@@ -1,6 +1,5 @@
 //! Both solenoids of a spool are never on together.
 
-use super::number::Q;
 use crate::io::Solenoids;
 
 /// A solenoid of a spool.
@@ -17,6 +16,7 @@ impl Side {
     pub const BOTH: [Self; 2] = [Self::Extend, Self::Retract];
 
     /// This side's and the other's of two values.
+    #[inline(always)]
     pub fn split<T>(self, [extend, retract]: Solenoids<T>) -> (T, T) {
         match self {
             Self::Extend => (extend, retract),
@@ -25,6 +25,7 @@ impl Side {
     }
 
     /// This value on this side and that on the other.
+    #[inline(always)]
     pub fn join<T>(self, this: T, that: T) -> Solenoids<T> {
         match self {
             Self::Extend => [this, that],
@@ -52,30 +53,33 @@ impl Side {
 /// Which solenoid of a spool holds the permission to be on: one value, so it can never be two.
 #[derive(Clone, Copy, Debug)]
 pub struct Interlock {
-    released: Q,
+    released_a: f32,
     holder: Option<Side>,
 }
 
 impl Interlock {
-    /// A coil counts as off below the current `released`.
-    pub fn new(released: Q) -> Self {
-        Self { released, holder: None }
+    /// A coil counts as off below the current `released_a`.
+    pub fn new(released_a: f32) -> Self {
+        Self { released_a, holder: None }
     }
 
     /// The solenoid that may be on.
+    #[inline(always)]
     pub fn holder(&self) -> Option<Side> {
         self.holder
     }
 
     /// Takes the permission back.
+    #[inline(always)]
     pub fn release(&mut self) {
         self.holder = None;
     }
 
     /// Asks for the permission: given when nobody holds it and the other solenoid's measured current has died away.
-    pub fn request(&mut self, side: Side, measured: Solenoids<Q>) {
-        let (_, other) = side.split(measured);
-        if self.holder.is_none() && other < self.released {
+    #[inline(always)]
+    pub fn request(&mut self, side: Side, measured_a: Solenoids<f32>) {
+        let (_, other) = side.split(measured_a);
+        if self.holder.is_none() && other < self.released_a {
             self.holder = Some(side);
         }
     }

@@ -43,6 +43,7 @@ impl Ramp {
     }
 
     /// One tick nearer to `target_a` (0, or at least `floor_a`). Nothing moves below `floor_a`, so the way between it and zero is jumped.
+    #[inline(always)]
     pub fn step(&mut self, target_a: f32, floor_a: f32) -> f32 {
         let from = if target_a > 0.0 && self.current_a < floor_a { floor_a } else { self.current_a };
         let next = if target_a - from > self.up_a {
@@ -57,6 +58,7 @@ impl Ramp {
     }
 
     /// Back to zero at once.
+    #[inline(always)]
     pub fn reset(&mut self) {
         self.current_a = 0.0;
     }
