@@ -111,7 +111,7 @@ fn more_current_than_allowed_is_named_though_the_voltage_explains_it() {
     let p = parameters();
     let limits = WatchLimits::new(&p.watch, &p.coil, 2.3);
     let mut watch = CoilWatch::default();
-    let given = Given { volts: 12.0, wanted_a: 1.0, at_limit: false };
+    let given = Given { volts: 12.0, wanted_a: 1.0, duty: 30_000 };
     let named: Vec<_> = (0..p.watch.short_ticks).map(|_| watch.judge(&limits, &given, 1.8)).collect();
     assert_eq!(named.iter().position(Option::is_some), Some(usize::from(p.watch.short_ticks) - 1));
     assert_eq!(named.last().copied().flatten(), Some(CoilFault::OverCurrent));
@@ -123,7 +123,7 @@ fn a_few_bad_samples_are_no_fault() {
     let limits = WatchLimits::new(&p.watch, &p.coil, 2.3);
     let mut watch = CoilWatch::default();
     for tick in 0..10_000 {
-        let given = Given { volts: 5.0, wanted_a: 0.9, at_limit: false };
+        let given = Given { volts: 5.0, wanted_a: 0.9, duty: 30_000 };
         let measured = if tick % 6 == 0 { 0.9 } else { 2.2 };
         assert_eq!(watch.judge(&limits, &given, measured), None);
     }

@@ -7,7 +7,6 @@ use super::coil_fault::{FaultyCoil, WatchParameters};
 use super::current_loop::LoopParameters;
 use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
-use super::number::{fraction, share};
 use super::ramp::RampParameters;
 use super::spool::{Shared, Spool};
 use crate::io::{Solenoids, Speeds};
@@ -102,10 +101,6 @@ impl CoilStageParameters {
 #[derive(Clone, Copy, Debug)]
 pub struct CoilStage {
     shared: Shared,
-    full_scale_a: f32,
-    zero_code: u16,
-    /// Currents up to this code are never judged.
-    floor_code: u16,
     spools: [Spool; 4],
 }
 
@@ -126,41 +121,31 @@ impl CoilStage {
     pub fn new(parameters: &CoilStageParameters) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
-        let floor_codes = p.watch.floor_a / p.sense.full_scale_a * 65536.0;
-        Ok(Self {
-            shared: Shared::new(p),
-            full_scale_a: p.sense.full_scale_a,
-            zero_code: p.sense.zero_code,
-            // Both casts are of numbers within the code's range.
-            floor_code: p.sense.zero_code.saturating_add(floor_codes as u16),
-            spools: p.spools.map(|spool| Spool::new(&spool, p.released_a)),
-        })
+        Ok(Self { shared: Shared::new(p), spools: p.spools.map(|spool| Spool::new(&spool, p.released_a)) })
     }
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the
     /// coils' current codes.
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
-        let (full_scale_a, zero_code, floor_code) = (self.full_scale_a, self.zero_code, self.floor_code);
         let supply = self.shared.gains.supply(supply_v);
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
         let inputs = speeds.to_array().into_iter().zip(codes);
         for (index, ((spool, (speed, codes)), (currents, duties))) in
             self.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
         {
-            let [extend, retract] = *codes;
-            if extend <= floor_code && retract <= floor_code && spool.sleeps(speed) {
+            if spool.sleeps(&self.shared, speed, *codes) {
                 continue;
             }
-            let measured_a = codes.map(|code| full_scale_a * fraction(share(code, zero_code)));
-            if let Some((side, fault)) = spool.judge(&self.shared, measured_a)
+            if let Some((side, fault)) = spool.judge(&self.shared, *codes)
                 && driven.fault.is_none_or(|so_far| fault < so_far.fault)
             {
                 driven.fault = Some(FaultyCoil { spool: index, side, fault });
             }
-            if let Some(one) = spool.drive(&self.shared, gate, speed, &supply, measured_a) {
-                *currents = one.side.join(one.current_a, 0.0);
-                *duties = one.side.join(one.duty, 0);
+            if let Some(one) = spool.drive(&self.shared, gate, speed, &supply, *codes) {
+                let ([extend, retract], [extend_duty, retract_duty]) = (currents, duties);
+                *one.side.split([extend, retract]).0 = one.current_a;
+                *one.side.split([extend_duty, retract_duty]).0 = one.duty;
             }
         }
         driven

@@ -1,12 +1,13 @@
 //! Sees what is wrong with a coil, from its measured current and the voltage given to it.
 //!
-//! A healthy coil's current lies between two envelopes of its mean voltage u, whatever its temperature: `low` rises with the longest L/R
-//! towards u/R_hottest and falls at once, `high` rises at once to u/R_coldest and falls with the longest L/R. Far outside them for a
+//! A healthy coil's current lies between two envelopes of its mean voltage u, whatever its temperature: the lower rises with the longest L/R
+//! towards u/R_hottest and falls at once, the upper rises at once to u/R_coldest and falls with the longest L/R. Far outside them for a
 //! while, it is a fault. The board is assumed to measure in the coil's return, and its high-side switch to pull the sense line to full scale
 //! in overload, as smart switches do.
 
 use super::coil_fault::{CoilFault, WatchParameters};
 use super::current_loop::LoopParameters;
+use super::number::duty_code;
 use crate::TICK_S;
 
 /// Copper's resistance against that at 20 °C, 1/K.
@@ -38,92 +39,94 @@ pub struct Given {
     pub volts: f32,
     /// Current asked for, A.
     pub wanted_a: f32,
-    /// The duty was as large as it can be.
-    pub at_limit: bool,
+    /// The timer's compare value.
+    pub duty: u16,
 }
 
 impl Given {
     /// Nothing.
-    pub const NOTHING: Self = Self { volts: 0.0, wanted_a: 0.0, at_limit: false };
+    pub const NOTHING: Self = Self { volts: 0.0, wanted_a: 0.0, duty: 0 };
 }
 
 /// What all the watches compare with.
 #[derive(Clone, Copy, Debug)]
 pub struct WatchLimits {
-    per_hottest_ohm: f32,
-    per_coldest_ohm: f32,
     /// Share of the way that an envelope goes in a tick.
     step: f32,
-    /// What the sense line at its end reads as, A.
-    full_scale_a: f32,
+    /// Half as much again as the coldest coil carries: ripple and a supply read at the wrong moment are far less. A/V.
+    allowed_per_volt: f32,
     floor_a: f32,
-    over_a: f32,
-    /// An upper envelope below this is none, A: a 64th of the floor beside which it is added.
-    forgotten_a: f32,
+    /// At or above this a current is too large, or the line at its end, A.
+    alert_a: f32,
+    /// A third of what the hottest coil carries: the freewheel's drop takes less. V/A.
+    missing_ohm: f32,
+    /// The largest duty, less a hair that rounding may take.
+    limit_duty: u16,
     open_ticks: u16,
     short_ticks: u16,
     saturated_ticks: u16,
+    over_a: f32,
+    /// What the sense line at its end reads as, A.
+    full_scale_a: f32,
+    /// The hottest coil's voltage at the floor.
+    floor_v: f32,
+    /// An upper envelope below this is none, V: a 64th of the floor beside which it stands.
+    forgotten_v: f32,
 }
 
 impl WatchLimits {
     /// From valid parameters; a measured current of `full_scale_a` or more is a switch in overload.
     pub fn new(parameters: &WatchParameters, coil: &LoopParameters, full_scale_a: f32) -> Self {
         let p = parameters;
-        let [coldest, hottest] = p.winding_c;
-        let per_ohm = |winding_c: f32| 1.0 / (coil.resistance_ohm * (1.0 + COPPER_PER_K * (winding_c - 20.0)));
+        let ohm = p.winding_c.map(|winding_c| coil.resistance_ohm * (1.0 + COPPER_PER_K * (winding_c - 20.0)));
+        let [coldest_ohm, hottest_ohm] = ohm;
         Self {
-            per_hottest_ohm: per_ohm(hottest),
-            per_coldest_ohm: per_ohm(coldest),
             step: TICK_S / p.slowest_s,
-            full_scale_a,
+            allowed_per_volt: 1.5 / coldest_ohm,
             floor_a: p.floor_a,
-            over_a: p.over_current_a,
-            forgotten_a: p.floor_a / 64.0,
+            alert_a: if p.over_current_a < full_scale_a { p.over_current_a } else { full_scale_a },
+            missing_ohm: 3.0 * hottest_ohm,
+            limit_duty: duty_code(coil.max_duty - 0.001),
             open_ticks: p.open_ticks,
             short_ticks: p.short_ticks,
             saturated_ticks: p.saturated_ticks,
+            over_a: p.over_current_a,
+            full_scale_a,
+            floor_v: p.floor_a * hottest_ohm,
+            forgotten_v: p.floor_a * coldest_ohm / 64.0,
         }
     }
 }
 
-/// What the measured current of a tick looks like.
-struct Signs {
-    driven: bool,
-    excess: bool,
-    over: bool,
-    missing: bool,
-    too_little: bool,
-}
-
-/// Watches one coil.
+/// Watches one coil. Its envelopes are those of the current, times the resistance they belong to.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilWatch {
-    low_a: f32,
-    high_a: f32,
+    low_v: f32,
+    high_v: f32,
+    /// One of the suspicions is not zero.
+    suspicious: bool,
+    /// Envelopes and suspicions are all at zero.
+    quiet: bool,
     open: Suspicion,
     /// Excess in ticks with a duty, and in ticks without; each waits while the other kind of tick goes by.
     driven_excess: Suspicion,
     idle_excess: Suspicion,
     over_current: Suspicion,
     saturated: Suspicion,
-    /// One of the suspicions is not zero.
-    suspicious: bool,
-    /// Envelopes and suspicions are all at zero.
-    quiet: bool,
 }
 
 impl Default for CoilWatch {
     fn default() -> Self {
         Self {
-            low_a: 0.0,
-            high_a: 0.0,
+            low_v: 0.0,
+            high_v: 0.0,
+            suspicious: false,
+            quiet: true,
             open: Suspicion::default(),
             driven_excess: Suspicion::default(),
             idle_excess: Suspicion::default(),
             over_current: Suspicion::default(),
             saturated: Suspicion::default(),
-            suspicious: false,
-            quiet: true,
         }
     }
 }
@@ -138,69 +141,58 @@ impl CoilWatch {
     /// One tick: what the coil was given since the last one, and its current now, A.
     #[inline(always)]
     pub fn judge(&mut self, limits: &WatchLimits, given: &Given, measured_a: f32) -> Option<CoilFault> {
-        // Most coils are off most of the time.
-        if self.quiet && given.volts <= 0.0 && measured_a <= limits.floor_a {
-            return None;
+        self.quiet = false;
+        let (rise, fall) = (given.volts - self.low_v, given.volts - self.high_v);
+        self.low_v = if rise > 0.0 { self.low_v + rise * limits.step } else { given.volts };
+        self.high_v = if fall < 0.0 { self.high_v + fall * limits.step } else { given.volts };
+        // Every sign of a fault is behind one of these.
+        if measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a
+            || measured_a >= limits.alert_a
+            || limits.missing_ohm * measured_a < self.low_v
+            || given.duty >= limits.limit_duty
+            || self.suspicious
+        {
+            return self.count(limits, given, measured_a);
         }
-        self.follow(limits, given.volts);
-        // Half as much again as the coldest coil could carry: ripple and a supply read at the wrong moment are far less.
-        let excess = measured_a > 1.5 * self.high_a + limits.floor_a || measured_a >= limits.full_scale_a;
-        let signs = Signs {
-            driven: given.volts > 0.0,
-            excess,
-            over: measured_a > limits.over_a && !excess,
-            // A third of what the hottest coil would carry: the freewheel's drop takes less.
-            missing: self.low_a > limits.floor_a && 3.0 * measured_a < self.low_a,
-            too_little: given.at_limit && measured_a < 0.875 * given.wanted_a,
-        };
-        if signs.excess || signs.over || signs.missing || signs.too_little || self.suspicious {
-            return self.count(limits, &signs);
-        }
-        self.quiet = self.high_a <= 0.0 && self.low_a <= 0.0;
         None
     }
 
-    /// [`Self::judge`] for a coil that was given nothing.
-    #[inline(always)]
+    /// [`Self::judge`] for a coil that was given nothing. Not inlined: it is seldom off and not yet quiet.
+    #[inline(never)]
     pub(super) fn judge_idle(&mut self, limits: &WatchLimits, measured_a: f32) -> Option<CoilFault> {
-        if self.quiet && measured_a <= limits.floor_a { None } else { self.judge_dying(limits, measured_a) }
+        if self.quiet && measured_a <= limits.floor_a {
+            return None;
+        }
+        let fault = self.judge(limits, &Given::NOTHING, measured_a);
+        if self.high_v < limits.forgotten_v {
+            self.high_v = 0.0;
+        }
+        self.quiet = !self.suspicious && self.high_v <= 0.0 && self.low_v <= 0.0;
+        fault
     }
 
-    /// Not inlined: a coil is seldom off and not yet quiet.
+    /// How long each sign has been there. Not inlined: a healthy coil shows none for long.
     #[inline(never)]
-    fn judge_dying(&mut self, limits: &WatchLimits, measured_a: f32) -> Option<CoilFault> {
-        self.judge(limits, &Given::NOTHING, measured_a)
-    }
-
-    /// How long each sign has been there. Not inlined: a healthy coil shows none.
-    #[inline(never)]
-    fn count(&mut self, limits: &WatchLimits, signs: &Signs) -> Option<CoilFault> {
-        let (this, other) = if signs.driven {
+    fn count(&mut self, limits: &WatchLimits, given: &Given, measured_a: f32) -> Option<CoilFault> {
+        let excess =
+            measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a || measured_a >= limits.full_scale_a;
+        let (this, other) = if given.volts > 0.0 {
             (&mut self.driven_excess, CoilFault::ShortToGround)
         } else {
             (&mut self.idle_excess, CoilFault::ShortToSupply)
         };
-        let short = this.lasts(signs.excess, limits.short_ticks).then_some(other);
-        let over = self.over_current.lasts(signs.over, limits.short_ticks);
-        let open = self.open.lasts(signs.missing, limits.open_ticks);
-        let saturated = self.saturated.lasts(signs.too_little, limits.saturated_ticks);
+        let short = this.lasts(excess, limits.short_ticks).then_some(other);
+        let over = self.over_current.lasts(measured_a > limits.over_a && !excess, limits.short_ticks);
+        let missing = self.low_v > limits.floor_v && limits.missing_ohm * measured_a < self.low_v;
+        let open = self.open.lasts(missing, limits.open_ticks);
+        let too_little = given.duty >= limits.limit_duty && measured_a < 0.875 * given.wanted_a;
+        let saturated = self.saturated.lasts(too_little, limits.saturated_ticks);
 
         let all = [self.open, self.driven_excess, self.idle_excess, self.over_current, self.saturated];
         self.suspicious = !all.into_iter().all(Suspicion::none);
-        self.quiet = !self.suspicious && self.high_a <= 0.0 && self.low_a <= 0.0;
         short
             .or(over.then_some(CoilFault::OverCurrent))
             .or(open.then_some(CoilFault::Open))
             .or(saturated.then_some(CoilFault::Saturated))
-    }
-
-    /// Both envelopes, one tick on.
-    #[inline(always)]
-    fn follow(&mut self, limits: &WatchLimits, volts: f32) {
-        let hot = volts * limits.per_hottest_ohm;
-        let cold = volts * limits.per_coldest_ohm;
-        self.low_a = if hot > self.low_a { self.low_a + (hot - self.low_a) * limits.step } else { hot };
-        let high = if cold < self.high_a { self.high_a + (cold - self.high_a) * limits.step } else { cold };
-        self.high_a = if high < limits.forgotten_a { 0.0 } else { high };
     }
 }

@@ -123,12 +123,6 @@ impl LoopGains {
         let swing = volts + self.freewheel_v;
         SupplyNow { volts, per_volt: 1.0 / swing, most_v: self.max_duty * swing - self.freewheel_v }
     }
-
-    /// This duty is as large as it can be, less a hair that rounding may take.
-    #[inline(always)]
-    pub fn at_limit(&self, duty: f32) -> bool {
-        duty >= self.max_duty - 0.001
-    }
 }
 
 /// A loop: where its reference, dither (A) and integral (V) are.
@@ -146,7 +140,7 @@ impl CurrentLoop {
         Self { reference_a: measured_a, dither_a: 0.0, integral_v: 0.0 }
     }
 
-    /// Duty, a fraction, for the wanted current and the dither of the next tick, all in A.
+    /// Duty, a fraction to within rounding, for the wanted current and the dither of the next tick, all in A.
     #[inline(always)]
     pub fn step(&mut self, g: &LoopGains, supply: &SupplyNow, wanted_a: f32, dither_a: f32, measured_a: f32) -> f32 {
         let error = self.reference_a + self.dither_a - measured_a;
@@ -164,6 +158,6 @@ impl CurrentLoop {
         if excess * error >= 0.0 {
             self.integral_v += g.integral_per_tick * error;
         }
-        limited((given + g.freewheel_v) * supply.per_volt, 0.0, 1.0)
+        (given + g.freewheel_v) * supply.per_volt
     }
 }

@@ -7,9 +7,9 @@ use crate::parameters::{Coil, ParameterError, ValveDirection, ordered, within};
 /// Points of a flow curve.
 pub const KNOTS: usize = 9;
 
-/// Pieces between them; the search halves them three times.
-const PIECES: usize = KNOTS - 1;
-const _: () = assert!(PIECES == 8);
+/// Halves of halves of halves: the pieces between the points.
+type Halves<T> = [[[T; 2]; 2]; 2];
+const _: () = assert!(KNOTS == 9);
 
 /// One direction of a spool, as its calibration leaves it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,21 +75,28 @@ struct Piece {
 /// The map of one direction, and whether it is beyond the jump.
 #[derive(Clone, Copy, Debug)]
 pub struct FlowMap {
-    pieces: [Piece; PIECES],
+    pieces: Halves<Piece>,
     max_a: f32,
     on_above: f32,
     off_at: f32,
     flowing: bool,
 }
 
+/// The second half if it begins at or below the speed, else the first.
+#[inline(always)]
+fn later<T>(halves: &[T; 2], from: impl Fn(&T) -> f32, speed: f32) -> &T {
+    let [first, second] = halves;
+    if speed >= from(second) { second } else { first }
+}
+
 impl FlowMap {
     /// From valid parameters.
     pub fn new(parameters: &FlowParameters) -> Self {
         let p = parameters;
-        let step_a = (p.max_current_a - p.min_current_a) / PIECES as f32;
-        let mut pieces = [Piece { from: 0.0, from_a: 0.0, amperes_per_speed: 0.0 }; PIECES];
+        let step_a = (p.max_current_a - p.min_current_a) / (KNOTS - 1) as f32;
+        let mut pieces = [[[Piece { from: 0.0, from_a: 0.0, amperes_per_speed: 0.0 }; 2]; 2]; 2];
         let ends = p.flow_table.iter().zip(p.flow_table.iter().skip(1));
-        for ((index, piece), (below, above)) in pieces.iter_mut().enumerate().zip(ends) {
+        for ((index, piece), (below, above)) in pieces.iter_mut().flatten().flatten().enumerate().zip(ends) {
             *piece = Piece {
                 from: below * p.full_speed,
                 from_a: p.min_current_a + step_a * index as f32,
@@ -108,14 +115,10 @@ impl FlowMap {
         if !self.flowing {
             return 0.0;
         }
-        // Halving: the largest index whose piece begins at or below the speed. The mask changes nothing and spares a check.
-        let mut index = 0;
-        for half in [PIECES / 2, PIECES / 4, PIECES / 8] {
-            if speed >= self.pieces[(index + half) % PIECES].from {
-                index += half;
-            }
-        }
-        let piece = &self.pieces[index % PIECES];
+        // The last piece that begins at or below the speed, by halving.
+        let half = later(&self.pieces, |[[piece, _], _]| piece.from, speed);
+        let quarter = later(half, |[piece, _]| piece.from, speed);
+        let piece = later(quarter, |piece| piece.from, speed);
         let current = piece.from_a + piece.amperes_per_speed * (speed - piece.from);
         if current < self.max_a { current } else { self.max_a }
     }
@@ -139,7 +142,7 @@ impl FlowMap {
     /// The smallest current that moves anything, A.
     #[inline(always)]
     pub fn min_a(&self) -> f32 {
-        let [first, ..] = &self.pieces;
+        let [[[first, _], _], _] = &self.pieces;
         first.from_a
     }
 }

@@ -45,15 +45,25 @@ impl Ramp {
     /// One tick nearer to `target_a` (0, or at least `floor_a`). Nothing moves below `floor_a`, so the way between it and zero is jumped.
     #[inline(always)]
     pub fn step(&mut self, target_a: f32, floor_a: f32) -> f32 {
-        let from = if target_a > 0.0 && self.current_a < floor_a { floor_a } else { self.current_a };
-        let next = if target_a - from > self.up_a {
+        if target_a <= 0.0 {
+            return self.fall(floor_a);
+        }
+        let from = if self.current_a < floor_a { floor_a } else { self.current_a };
+        let change = target_a - from;
+        self.current_a = if change > self.up_a {
             from + self.up_a
-        } else if from - target_a > self.down_a {
+        } else if change < -self.down_a {
             from - self.down_a
         } else {
             target_a
         };
-        self.current_a = if target_a <= 0.0 && next < floor_a { 0.0 } else { next };
+        self.current_a
+    }
+
+    /// One tick nearer to zero.
+    fn fall(&mut self, floor_a: f32) -> f32 {
+        let next = self.current_a - self.down_a;
+        self.current_a = if next < floor_a || next < 0.0 { 0.0 } else { next };
         self.current_a
     }
 

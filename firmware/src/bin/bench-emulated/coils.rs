@@ -33,7 +33,10 @@ pub(crate) fn coils(out: &mut Out, stopwatch: &Stopwatch) {
         (Gate::Open, Speeds::from_array([0.5 * t + 0.01; 4]), [[zero.saturating_add(current), zero]; 4])
     };
     row(out, stopwatch, "coil_stage_driven", driven, |tick| drive(&mut stage, tick));
-    let mut stage = black_box(stage);
     let off = |_: f32| -> Tick { (Gate::Open, Speeds::ZERO, [[zero; 2]; 4]) };
+    row(out, stopwatch, "coil_stage_dying", off, |tick| drive(&mut stage, tick));
+    for _ in 0..500 {
+        drive(&mut stage, &off(0.0));
+    }
     row(out, stopwatch, "coil_stage_off", off, |tick| drive(&mut stage, tick));
 }
