@@ -8,7 +8,7 @@ use super::current_loop::LoopParameters;
 use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
 use super::ramp::RampParameters;
-use super::spool::{Shared, Spool};
+use super::spool::{Now, Shared, Spool};
 use crate::io::{Solenoids, Speeds};
 use crate::parameters::{Coil, ParameterError, ValveDirection, within};
 use crate::supervisor::Gate;
@@ -128,7 +128,7 @@ impl CoilStage {
     /// coils' current codes.
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
-        let supply = self.shared.gains.supply(supply_v);
+        let now = Now { gate, supply: self.shared.gains.supply(supply_v) };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
         let inputs = speeds.to_array().into_iter().zip(codes);
         for (index, ((spool, (speed, codes)), (currents, duties))) in
@@ -137,15 +137,10 @@ impl CoilStage {
             if spool.sleeps(&self.shared, speed, *codes) {
                 continue;
             }
-            if let Some((side, fault)) = spool.judge(&self.shared, *codes)
+            if let Some((side, fault)) = spool.tick(&self.shared, &now, speed, *codes, (currents, duties))
                 && driven.fault.is_none_or(|so_far| fault < so_far.fault)
             {
                 driven.fault = Some(FaultyCoil { spool: index, side, fault });
-            }
-            if let Some(one) = spool.drive(&self.shared, gate, speed, &supply, *codes) {
-                let ([extend, retract], [extend_duty, retract_duty]) = (currents, duties);
-                *one.side.split([extend, retract]).0 = one.current_a;
-                *one.side.split([extend_duty, retract_duty]).0 = one.duty;
             }
         }
         driven

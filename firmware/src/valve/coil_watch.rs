@@ -138,10 +138,14 @@ impl CoilWatch {
         self.quiet
     }
 
+    /// The coil will be given something.
+    pub(super) fn wake(&mut self) {
+        self.quiet = false;
+    }
+
     /// One tick: what the coil was given since the last one, and its current now, A.
     #[inline(always)]
     pub fn judge(&mut self, limits: &WatchLimits, given: &Given, measured_a: f32) -> Option<CoilFault> {
-        self.quiet = false;
         let (rise, fall) = (given.volts - self.low_v, given.volts - self.high_v);
         self.low_v = if rise > 0.0 { self.low_v + rise * limits.step } else { given.volts };
         self.high_v = if fall < 0.0 { self.high_v + fall * limits.step } else { given.volts };

@@ -108,13 +108,21 @@ impl FlowMap {
     }
 
     /// Current (A) for a speed (m/s, a swing motor rad/s) in this direction; a speed the other way gives none. The curve is inverted by linear interpolation.
-    #[inline(always)]
     pub fn current_a(&mut self, speed: f32) -> f32 {
         let threshold = if self.flowing { self.off_at } else { self.on_above };
         self.flowing = speed > threshold;
-        if !self.flowing {
-            return 0.0;
-        }
+        if self.flowing { self.beyond(speed) } else { 0.0 }
+    }
+
+    /// Beyond the jump, and stays there at this speed.
+    #[inline(always)]
+    pub(super) fn stays_on(&self, speed: f32) -> bool {
+        self.flowing && speed > self.off_at
+    }
+
+    /// Current (A) for a speed beyond the jump.
+    #[inline(always)]
+    pub(super) fn beyond(&self, speed: f32) -> f32 {
         // The last piece that begins at or below the speed, by halving.
         let half = later(&self.pieces, |[[piece, _], _]| piece.from, speed);
         let quarter = later(half, |[piece, _]| piece.from, speed);
@@ -124,7 +132,6 @@ impl FlowMap {
     }
 
     /// Back before the jump: the solenoid is off.
-    #[inline(always)]
     pub fn rest(&mut self) {
         self.flowing = false;
     }
