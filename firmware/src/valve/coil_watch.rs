@@ -152,7 +152,7 @@ impl CoilWatch {
         // Every sign of a fault is behind one of these.
         if measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a
             || measured_a >= limits.alert_a
-            || limits.missing_ohm * measured_a < self.low_v
+            || (limits.missing_ohm * measured_a < self.low_v && self.low_v > limits.floor_v)
             || given.duty >= limits.limit_duty
             || self.suspicious
         {

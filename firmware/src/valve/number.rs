@@ -18,7 +18,8 @@ pub fn fraction(share: Share) -> f32 {
 /// The compare value of a 16-bit PWM timer for a duty 0…1; below is off, and 65535 is always on. A duty is never NaN.
 #[inline(always)]
 pub fn duty_code(duty: f32) -> u16 {
-    // From 1 to 2 a float's bits count in steps of 2⁻²³, below and above they still rise: a seventh of the saturating cast's instructions.
+    // From 1 to 2 a float's bits count in steps of 2⁻²³, below and above they still rise: fewer instructions than the
+    // saturating cast.
     let steps = (1.0 + duty).to_bits().cast_signed().saturating_sub(1.0_f32.to_bits().cast_signed());
-    core::cmp::min(core::cmp::max(steps >> 7, 0), 65535) as u16
+    (steps >> 7).clamp(0, 65535) as u16
 }

@@ -43,11 +43,16 @@ impl Ramp {
     }
 
     /// One tick nearer to `target_a` (0, or at least `floor_a`). Nothing moves below `floor_a`, so the way between it and zero is jumped.
-    #[inline(always)]
     pub fn step(&mut self, target_a: f32, floor_a: f32) -> f32 {
         if target_a <= 0.0 {
             return self.fall(floor_a);
         }
+        self.follow(target_a, floor_a)
+    }
+
+    /// [`Self::step`] for a target above zero.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, target_a: f32, floor_a: f32) -> f32 {
         let from = if self.current_a < floor_a { floor_a } else { self.current_a };
         let change = target_a - from;
         self.current_a = if change > self.up_a {
@@ -68,7 +73,6 @@ impl Ramp {
     }
 
     /// Back to zero at once.
-    #[inline(always)]
     pub fn reset(&mut self) {
         self.current_a = 0.0;
     }

@@ -152,7 +152,7 @@ impl Spool {
             Side::Retract => -speed,
         };
         let current_a = if now.gate == Gate::Open && direction.flow.stays_on(wish) {
-            direction.ramp.step(direction.flow.beyond(wish), direction.flow.min_a())
+            direction.ramp.follow(direction.flow.beyond(wish), direction.flow.min_a())
         } else {
             let Some((_, current_a)) = self.turn(shared, now.gate, speed, codes) else { return fault };
             current_a
