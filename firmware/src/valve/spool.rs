@@ -219,6 +219,9 @@ impl Spool {
         let both = codes.into_iter().all(|code| code > shared.cross_code);
         let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
         self.other_calm = quiet && self.cross.none();
+        if fault.is_none() && other.is_none() && cross.is_none() {
+            return None;
+        }
         let idle = self.interlock.holder().map_or(Side::Extend, Side::opposite);
         let [extend, retract] = side.join(fault, other);
         // The first of equally urgent ones.
@@ -246,13 +249,13 @@ impl Spool {
             self.close();
             return None;
         }
-        let measured_a = codes.map(|code| shared.measured_a(code));
         let (asked, wish) = if speed < 0.0 { (Side::Retract, -speed) } else { (Side::Extend, speed) };
         let [extend, retract] = &mut self.directions;
         let (direction, opposite) = asked.split([extend, retract]);
         opposite.flow.rest();
         let target_a = direction.flow.current_a(wish);
         if target_a > 0.0 && self.interlock.holder().is_none() {
+            let measured_a = codes.map(|code| shared.measured_a(code));
             self.interlock.request(asked, measured_a);
             self.current = CurrentLoop::start(asked.split(measured_a).0);
             self.dither.reset();
