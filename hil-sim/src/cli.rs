@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod coil;
 pub mod effort;
 pub mod icd;
 pub mod machine;
@@ -39,6 +40,8 @@ enum Command {
     Run(run::RunArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
     Scenes(scenes::ScenesArgs),
+    /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
+    Coil(coil::CoilArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
@@ -63,6 +66,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Params(args) }) => params::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
+        Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.

@@ -13,10 +13,12 @@
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
+//! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod coil_trial;
 pub mod effort;
 pub mod icd;
 pub mod labels;

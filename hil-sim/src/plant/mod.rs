@@ -1,6 +1,7 @@
 //! The simulated machine: coil duties in, actuator positions out. Fixed step, deterministic, the same for host and emulator.
 
 pub mod actuator;
+pub mod coil;
 pub mod sensors;
 pub mod swing;
 

@@ -1,12 +1,14 @@
 //! What a run looks like: the short table, and the report folder.
 //!
 //! - [`table()`] — the short table after a run;
+//! - [`write_coil`] — the folder of the coil current loop: `coil.html`, `coil.json`;
 //! - [`write`](fn@write) — the folder of a run: `report.html`, `linkage.svg`, `log.csv`, `summary.json`;
 //! - [`draw_only`] — the folder of a dig that is drawn but not run: `report.html`, `linkage.svg`, `dig.csv`.
 //!
 //! Inside, a `figures` module says what each figure shows and one file of it draws them all; `series` makes long series
 //! short; `html` is the page and escapes every text; `run` and `dig` put it together.
 
+mod coil;
 mod csv;
 mod dig;
 mod figures;
@@ -20,6 +22,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use coil::write_coil;
 pub use dig::draw_only;
 pub use machine::write_machine;
 pub use planar_arm::{planar_arm_table, write_planar_arm};

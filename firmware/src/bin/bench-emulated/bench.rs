@@ -25,6 +25,7 @@ use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
 use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
+use crate::coils::coils;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
@@ -157,7 +158,7 @@ fn avoid_step_2(avoid: &Avoid<f32>, joints: &[Rotor<f32>; 4], aim: &Aim<f32>, ba
     avoid.step(joints, aim, balls)
 }
 
-struct Out(Link);
+pub(crate) struct Out(Link);
 
 impl Write for Out {
     fn write_str(&mut self, text: &str) -> core::fmt::Result {
@@ -166,7 +167,13 @@ impl Write for Out {
 }
 
 /// Runs `map` on each of [`RUNS`] inputs and writes the line.
-fn row<I, O>(out: &mut Out, stopwatch: &Stopwatch, name: &str, input: impl Fn(f32) -> I, map: impl Fn(&I) -> O) {
+pub(crate) fn row<I, O>(
+    out: &mut Out,
+    stopwatch: &Stopwatch,
+    name: &str,
+    input: impl Fn(f32) -> I,
+    mut map: impl FnMut(&I) -> O,
+) {
     let mut counts = [0; RUNS];
     for (i, count) in counts.iter_mut().enumerate() {
         let input = black_box(input(i as f32 / (RUNS - 1) as f32));
@@ -268,6 +275,7 @@ fn main() -> ! {
     let balls =
         black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
+    coils(&mut out, s);
     angles(&mut out, s);
     succeed()
 }

@@ -4,6 +4,8 @@
 #[cfg(target_os = "none")]
 mod bench;
 #[cfg(target_os = "none")]
+mod coils;
+#[cfg(target_os = "none")]
 #[path = "../../emulated/mod.rs"]
 mod emulated;
 
