@@ -94,6 +94,8 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("cylinders_to_tip_unchecked") <= 180);
     assert!(largest("cylinders_to_tip_unchecked") < largest("cylinders_to_tip"));
     assert!(largest("tip_to_cylinders") <= 170);
+    assert!(largest("cylinders_to_tip_with_jacobian") <= 340);
+    assert!(largest("cylinders_to_tip_with_fine_jacobian") <= 570);
     // Stated in the docs of `isotropy` and `redundancy`, with room for another compiler.
     assert!(largest("singularity_distance_3") <= 45);
     assert!(largest("redundancy_3") <= 260);

@@ -45,6 +45,15 @@ fn cylinders_to_tip_with_jacobian(
 }
 
 #[inline(never)]
+fn cylinders_to_tip_with_fine_jacobian(
+    machine: &Machine<f32>,
+    cylinders: &Cylinders<f32>,
+    swing: Rotor<f32>,
+) -> Result<(Pose<f32>, CylinderJacobian<f32>), PoseError<f32>> {
+    machine.cylinders_to_tip_with_fine_jacobian(cylinders, swing)
+}
+
+#[inline(never)]
 fn moment_arms(machine: &Machine<f32>, cylinders: &Cylinders<f32>) -> Result<MomentArms<f32>, PoseError<f32>> {
     machine.moment_arms(cylinders)
 }
@@ -152,6 +161,9 @@ fn main() -> ! {
     row(&mut out, s, "cylinders_to_tip", along, |c| cylinders_to_tip(m, c, swing));
     row(&mut out, s, "cylinders_to_tip_unchecked", along, |c| cylinders_to_tip_unchecked(m, c, swing));
     row(&mut out, s, "cylinders_to_tip_with_jacobian", along, |c| cylinders_to_tip_with_jacobian(m, c, swing));
+    row(&mut out, s, "cylinders_to_tip_with_fine_jacobian", along, |c| {
+        cylinders_to_tip_with_fine_jacobian(m, c, swing)
+    });
     row(&mut out, s, "moment_arms", along, |c| moment_arms(m, c));
     let jacobian = |t: f32| match m.cylinders_to_tip_with_jacobian(&along(t), swing) {
         Ok((_, jacobian)) => jacobian,
