@@ -3,7 +3,7 @@
 //! Sums of rotors and levers cancel, and f32 keeps 6e-8 of each term. A Cortex-M4F multiplies two 32-bit integers into 64 bits in
 //! one instruction. Whoever makes the constants keeps every number below two; sums wrap, so that nothing can panic.
 
-use crate::Real;
+use crate::{Real, Rotor};
 
 /// Steps in one.
 const STEPS: f64 = (1u32 << 30) as f64;
@@ -45,6 +45,12 @@ impl Fixed {
     #[inline(always)]
     pub(crate) fn times(self, other: Self) -> Wide {
         Wide(i64::from(self.0).wrapping_mul(i64::from(other.0)))
+    }
+
+    /// A number within (−2, 2) to the step below its magnitude; exact where T's own steps are no finer.
+    #[inline(always)]
+    pub(crate) fn of<T: Real>(x: T) -> Self {
+        Self((x * T::from_f64(STEPS)).truncated_i32())
     }
 
     #[inline(always)]
@@ -108,6 +114,25 @@ impl FixedVec {
     #[inline(always)]
     pub(crate) fn norm_squared(self) -> Fixed {
         self.x.times(self.x).plus(self.z.times(self.z)).narrow()
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> Fixed {
+        self.x.times(other.x).plus(self.z.times(other.z)).narrow()
+    }
+
+    #[inline(always)]
+    pub(crate) fn minus(self, other: Self) -> Self {
+        Self { x: self.x.minus(other.x), z: self.z.minus(other.z) }
+    }
+
+    /// A rotor's direction, its length brought to one to first order: rounded to T it is up to T's step too long or short.
+    #[inline(always)]
+    pub(crate) fn direction<T: Real>(rotor: Rotor<T>) -> Self {
+        let (x, z) = (Fixed::of(rotor.cos), Fixed::of(rotor.sin));
+        let excess = x.times(x).plus(z.times(z)).minus(Wide(1 << 60));
+        let half = Fixed((excess.0 >> 31) as i32);
+        Self { x: x.minus(x.times(half).narrow()), z: z.minus(z.times(half).narrow()) }
     }
 
     #[inline(always)]

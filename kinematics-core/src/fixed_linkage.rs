@@ -20,6 +20,19 @@ pub(crate) struct FixedTriangle<T> {
     across: FixedVec,
     /// dθ/dL = slope·L/r
     slope: T,
+    /// σ, +1 where the joint turns counter-clockwise as the cylinder extends, else −1
+    sigma: T,
+}
+
+/// A joint at one length, away from its dead points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedTriangle<T> {
+    /// The joint's rotor times the scale.
+    pub(crate) vector: FixedVec,
+    /// dθ/dL, rad/m.
+    pub(crate) rate: T,
+    /// cot α
+    cotangent: T,
 }
 
 impl<T: Real> FixedTriangle<T> {
@@ -55,12 +68,13 @@ impl<T: Real> FixedTriangle<T> {
             straight: FixedVec::new(offset.x, offset.z)?,
             across: FixedVec::new(-(offset.z * sigma), offset.x * sigma)?,
             slope: T::from_f64(2.0 * sigma / (unit * unit)),
+            sigma: T::from_f64(sigma),
         })
     }
 
-    /// Cylinder length (m) inside its stroke → the joint's vector, and dθ/dL; `None` at a dead point.
+    /// Cylinder length (m) inside its stroke → the joint; `None` at a dead point.
     #[inline(always)]
-    pub(crate) fn place(&self, length: T) -> Option<(FixedVec, T)> {
+    pub(crate) fn place(&self, length: T) -> Option<PlacedTriangle<T>> {
         let x = i64::from((length * self.per_m).truncated_i32().wrapping_mul(self.steps));
         let w = self.middle.wrapping_sub(x.wrapping_mul(x));
         // w to 30 bits, and the 28 beyond them: near a dead point k² − w² needs both.
@@ -68,7 +82,15 @@ impl<T: Real> FixedTriangle<T> {
         let root = self.span.minus(high.times(high)).minus(Wide(high.times(low).0 >> 27)).root::<T>()?;
         let part = |along: Fixed, across: Fixed| high.times(along).plus(root.times(across)).narrow();
         let vector = FixedVec { x: part(self.straight.x, self.across.x), z: part(self.straight.z, self.across.z) };
-        Some((vector, self.slope * length / root.to_real()))
+        let sine: T = root.to_real();
+        Some(PlacedTriangle { vector, rate: self.slope * length / sine, cotangent: high.to_real::<T>() / sine })
+    }
+
+    /// d²θ/dL² = (dθ/dL)/L − σ·(dθ/dL)²·cot α, rad/m².
+    #[inline(always)]
+    pub(crate) fn bend(&self, placed: &PlacedTriangle<T>, length: T) -> T {
+        let PlacedTriangle { rate, cotangent, .. } = *placed;
+        rate / length - self.sigma * (rate * rate) * cotangent
     }
 }
 
@@ -90,6 +112,19 @@ pub(crate) struct FixedFourBar<T> {
     unwind: FixedVec,
     /// 2⁵⁴/gain
     per_square: T,
+    /// H
+    coupler_pin: FixedVec,
+}
+
+/// The bucket's joint at one length, away from its dead points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedFourBar<T> {
+    /// θ4
+    pub(crate) rotor: FixedVec,
+    /// dθ4/dL, rad/m.
+    pub(crate) rate: T,
+    /// d²θ4/dL², rad/m².
+    pub(crate) bend: T,
 }
 
 /// The smallest gain·|J − P|² whose reciprocal fits.
@@ -109,6 +144,7 @@ impl<T: Real> FixedFourBar<T> {
         let gain = if h < 0.5 { 2.0 * h } else { 1.0 };
         let unwind = b.coupler_pin.conjugate().scale(gain / (2.0 * h * h * unit));
         let from_pin = from_pin.scale(1.0 / unit);
+        let coupler_pin = b.coupler_pin.scale(1.0 / unit);
         let base = b.base - b.rocker_pivot;
         let moving = Vec2::new(b.rocker_m, 0.0);
         let made = Self {
@@ -119,6 +155,7 @@ impl<T: Real> FixedFourBar<T> {
             balance: Fixed::new(h * h - c * c)?,
             unwind: FixedVec::new(unwind.x, unwind.z)?,
             per_square: T::from_f64(f64::from(1u32 << 27) * f64::from(1u32 << 27) / gain),
+            coupler_pin: FixedVec::new(coupler_pin.x, coupler_pin.z)?,
         };
         // |J − P| is shortest at an end of the stroke, or where the rocker points at the bucket pin.
         let shortest = (b.rocker_m / unit - from_pin.norm()).abs();
@@ -126,10 +163,13 @@ impl<T: Real> FixedFourBar<T> {
         (gain * shortest * shortest >= SMALLEST_SQUARE).then_some(made)
     }
 
-    /// Cylinder length (m) inside its stroke → rotor of θ4 and dθ4/dL; `None` at a dead point.
+    /// Cylinder length (m) inside its stroke → the bucket's joint; `None` at a dead point.
+    ///
+    /// With ψ the rocker's angle and q = dθ4/dψ, `dq/dψ = −(q²·p·j − 2q·p·s + s·k)/(j × p)` as in `FourBar::moment`.
     #[inline(always)]
-    pub(crate) fn place(&self, length: T) -> Option<(FixedVec, T)> {
-        let (s, rocker_rate) = self.rocker.place(length)?;
+    pub(crate) fn place(&self, length: T) -> Option<PlacedFourBar<T>> {
+        let rocker = self.rocker.place(length)?;
+        let s = rocker.vector;
         let j = self.pivot_from_pin.plus(s);
         let square = j.norm_squared();
         let root = self.outer.minus(square).times(square.minus(self.inner)).root::<T>()?;
@@ -144,8 +184,17 @@ impl<T: Real> FixedFourBar<T> {
         // |J − P|²·(K − I) × (J − I)
         let d = self.pivot_from_pin.scale(square);
         let sweep = FixedVec { x: k.x.half().minus(d.x), z: k.z.half().minus(d.z) }.cross(s);
-        let ratio = (T::from_i32(sweep.0) + T::from_i32(sweep.0)) / (square_steps * root.to_real());
-        Some((rotor, rocker_rate * ratio))
+        let root: T = root.to_real();
+        let ratio = (T::from_i32(sweep.0) + T::from_i32(sweep.0)) / (square_steps * root);
+        let p = rotor.complex_mul(self.coupler_pin);
+        let (pj, ps): (T, T) = (p.dot(j).to_real(), p.dot(s).to_real());
+        let sk: T = s.dot(p.minus(self.pivot_from_pin)).to_real();
+        // The root is −2·j × p.
+        let ratio_slope = (ratio * (ratio * pj - (ps + ps)) + sk) * T::from_i32(2) / root;
+        let rate = rocker.rate * ratio;
+        let curl = self.rocker.sigma * ratio * rocker.cotangent - ratio_slope;
+        let bend = rate / length - rocker.rate * rocker.rate * curl;
+        Some(PlacedFourBar { rotor, rate, bend })
     }
 }
 
@@ -169,7 +218,7 @@ mod tests {
     fn a_right_angle_comes_to_a_few_steps() {
         let triangle = made(1.0, Stroke { min_m: 1.0, max_m: 1.9 }).expect("in range");
         let length = 2.0f32.sqrt();
-        let (joint, _) = triangle.place(length).expect("closes");
+        let joint = triangle.place(length).expect("closes").vector;
         // cos α = 1 − L²/2, of the length as f32 has it.
         let cosine = 1.0 - f64::from(length) * f64::from(length) / 2.0;
         assert!((f64::from(joint.x.0) / f64::from(1u32 << 30) - cosine).abs() < 5e-9);

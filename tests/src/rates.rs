@@ -1,8 +1,9 @@
 //! What the tests of rates share: triples of numbers, errors relative to a row, and the poses they are taken at.
 
+use kinematics_core::geometry::Stroke;
 use kinematics_core::jacobian::Twist;
 use kinematics_core::rates::{CylinderRates, JointRates};
-use kinematics_core::{Cylinders, PinGeometry, Real, Rotor, STROKE_TOLERANCE_M};
+use kinematics_core::{Cylinders, Joints, PinGeometry, Real, Rotor, STROKE_TOLERANCE_M};
 
 use crate::differences::on_grid;
 use crate::sweep::{Random, lengths};
@@ -107,4 +108,23 @@ pub fn poses<T: Real>(g: &PinGeometry) -> Vec<[f64; 3]> {
     }
     poses.extend((0..20_000).map(|_| [0, 1, 2].map(|which| all[which][random.index(all[which].len())])));
     poses
+}
+
+/// A length inside the stroke, three quarters of them crowding towards its ends.
+pub fn crowding(stroke: Stroke, random: &mut Random) -> f64 {
+    let part = random.unit();
+    let part = match random.bits() & 3 {
+        0 => part,
+        1 => part.powi(3),
+        2 => part.powi(8),
+        _ => part.powi(20),
+    };
+    let part = if random.bits() & 1 == 0 { part } else { 1.0 - part };
+    f64::from((stroke.min_m + part * (stroke.max_m - stroke.min_m)) as f32)
+}
+
+/// Exactly the directions of joints in f32.
+pub fn exactly(joints: &Joints<f32>) -> Joints<f64> {
+    let unit = |r: Rotor<f32>| Rotor { cos: f64::from(r.cos), sin: f64::from(r.sin) }.renormalised();
+    Joints { boom: unit(joints.boom), arm: unit(joints.arm), bucket: unit(joints.bucket) }
 }

@@ -2,18 +2,17 @@
 //!
 //! Errors are relative to the largest entry of the matrix row they stand in. In f32 the fine Jacobian keeps 2e-6 everywhere, dead
 //! points included. The quick one leaves more where a whole row nearly vanishes (levers about level with the tip), most of all next to
-//! a dead point: [`quick_row`]. Even exact joint rotors, once rounded to f32, would leave 3.6e-6 of a row there, so that no kernel
-//! which hands f32 rotors on can do better: the fine one is in fixed point.
+//! a dead point: [`quick_row`]. Even exact joint rotors, once rounded to f32, leave more than 2e-6 of a row there
+//! (`rates_floor.rs`), so that no kernel which hands f32 rotors on can do better: the fine one is in fixed point.
 //!
 //! `cargo test -p cross-tests --test rates_jacobians -- --nocapture` prints every number.
 
 use cross_tests::differences;
 use cross_tests::machines;
 use cross_tests::oracle::Oracle;
-use cross_tests::rates::{Worst, cylinders, matrix_error, poses, row_error};
+use cross_tests::rates::{Worst, crowding, cylinders, matrix_error, poses, row_error};
 use cross_tests::sweep::Random;
 use kinematics_core::cylinder_jacobian::CylinderJacobian;
-use kinematics_core::geometry::Stroke;
 use kinematics_core::{Cylinders, Machine, PinGeometry, Pose, PoseError, Real, Rotor};
 
 /// The promise, relative to the row's largest entry.
@@ -80,14 +79,6 @@ fn jacobians_in_f32_agree_with_differences_over_every_stroke() {
     }
 }
 
-/// A length inside the stroke, a quarter of them crowding towards its ends.
-fn any_length(stroke: Stroke, random: &mut Random) -> f64 {
-    let part = random.unit();
-    let part = if random.bits() & 3 == 0 { part.powi(5) } else { part };
-    let part = if random.bits() & 1 == 0 { part } else { 1.0 - part };
-    f64::from((stroke.min_m + part * (stroke.max_m - stroke.min_m)) as f32)
-}
-
 #[test]
 fn a_random_search_in_f32_finds_no_worse_cylinder_space_jacobian() {
     // Against the f64 kernel, whose own error above is a millionth of f32's: cheap enough for a million poses a machine.
@@ -102,7 +93,7 @@ fn a_random_search_in_f32_finds_no_worse_cylinder_space_jacobian() {
             let mut random = Random::new(15);
             let (mut worst, mut whole, mut tip, mut above) = (Worst::default(), Worst::default(), Worst::default(), 0);
             for _ in 0..1_000_000 {
-                let at = strokes.map(|stroke| any_length(stroke, &mut random));
+                let at = strokes.map(|stroke| crowding(stroke, &mut random));
                 let (pose, found) = kernel(&single, &cylinders(at), Rotor::IDENTITY).unwrap();
                 let (exact_pose, exact) =
                     double.cylinders_to_tip_with_jacobian(&cylinders(at), Rotor::IDENTITY).unwrap();
@@ -125,12 +116,12 @@ fn a_random_search_in_f32_finds_no_worse_cylinder_space_jacobian() {
 
 #[test]
 fn every_machine_is_within_the_range_of_the_fine_jacobian() {
-    // Out of its range it is the quick one, bit for bit; within, nearly every pose differs from that.
+    // Out of its range it is the quick one, bit for bit (`rates_fallback.rs`); within, nearly every pose differs from that.
     for (name, g) in machines::all().unwrap() {
         let machine = Machine::<f32>::new(&g).unwrap();
         let mut random = Random::new(16);
         let differ = (0..1000).filter(|_| {
-            let at = cylinders([g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(|s| any_length(s, &mut random)));
+            let at = cylinders([g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(|s| crowding(s, &mut random)));
             let quick = machine.cylinders_to_tip_with_jacobian(&at, Rotor::IDENTITY).unwrap();
             quick != machine.cylinders_to_tip_with_fine_jacobian(&at, Rotor::IDENTITY).unwrap()
         });
