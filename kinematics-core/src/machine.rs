@@ -81,7 +81,9 @@ impl<T: Real> Pose<T> {
 /// # Ok(())
 /// # }
 /// ```
+// In this order: what poses need stands first, within the reach of the ECU's short offsets.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Machine<T> {
     pub(crate) boom: Triangle<T>,
     pub(crate) arm: Triangle<T>,
