@@ -1,13 +1,14 @@
 //! What the maps are measured against; nothing of this is in the product.
 //!
 //! - [`seed`]: Frankel 2003's angle formulas as written, with libm, in f32 and f64;
-//! - `ours`, `maps`: the machine and the poses all are compared on (host only);
+//! - [`bits`]: the fixed-point kernels' bits, to be compared between host and target;
+//! - [`ours`], `maps`: the machine and the poses all are compared on (poses: host only);
 //! - `peers`: the same chain through peer libraries (feature `peers`, host only).
 #![cfg_attr(target_os = "none", no_std)]
 
+pub mod bits;
 #[cfg(not(target_os = "none"))]
 pub mod maps;
-#[cfg(not(target_os = "none"))]
 pub mod ours;
 #[cfg(all(feature = "peers", not(target_os = "none")))]
 pub mod peers;

@@ -3,6 +3,7 @@
 //! The plane is swung by θ1 about the swing axis; reach and height are measured in it, in the base frame whose origin
 //! lies on the swing axis at boom-pin height. Reach is signed: the tip may stand behind the axis.
 
+use crate::fixed_chain::FixedChain;
 use crate::{PoseError, Real, Rotor, Vec2};
 
 /// Joint rotations in the plane.
@@ -76,6 +77,8 @@ pub struct Chain<T> {
     /// a2² + a3² and 1/2·a2·a3
     sum_of_squares: T,
     half_over_a2_a3: T,
+    /// For [`Chain::fine_jacobian`] and its like, where they can have one.
+    pub(crate) fixed: Option<FixedChain<T>>,
 }
 
 impl<T: Real> Chain<T> {
@@ -94,6 +97,7 @@ impl<T: Real> Chain<T> {
             one_over_a3: T::from_f64(1.0 / a3),
             sum_of_squares: T::from_f64(a2 * a2 + a3 * a3),
             half_over_a2_a3: T::from_f64(0.5 / (a2 * a3)),
+            fixed: FixedChain::new(a),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Cylinder rates ↔ tip twist in one step, which is what a valve loop needs; and pose and Jacobian by one kernel.
 
 use crate::chain::PlaneTip;
+use crate::fixed_kernel::Found;
 use crate::forces::{CylinderForces, Wrench};
 use crate::jacobian::{PlanarJacobian, Twist};
 use crate::machine::{bucket_open, open};
@@ -146,5 +147,49 @@ impl<T: Real> Machine<T> {
         let plane = PlaneTip { reach: a1 + boom_lever.x, height: boom_lever.z, pitch };
         let pose = Pose { swing, joints, plane, x: plane.reach * swing.cos, y: plane.reach * swing.sin };
         Ok((pose, CylinderJacobian::new([boom_lever, arm_lever, bucket_lever], transmissions)))
+    }
+
+    /// [`Machine::cylinders_to_tip_with_jacobian`] to 2e-6 of a row's largest entry in f32 too, where levers nearly vanish and next to
+    /// dead points included: in 32-bit fixed point, rounded to T at the end, at about twice the cost (`docs/cost.md`).
+    ///
+    /// Its pose is nearer to the exact one than that of [`Machine::cylinders_to_tip`] and may differ from it in the last bits. In f64
+    /// the quick kernel is finer than fixed point and answers here too, bit for bit. So it does for a geometry out of fixed point's range: a
+    /// cylinder shorter than a quarter of √(2ab) or longer than four of them, a and b its triangle's sides; a rocker pin that can come
+    /// next to the bucket pin; a boom pin twice a2 + a3 + a4 from the swing axis or more.
+    ///
+    /// ```
+    /// # use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
+    /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+    /// // Arm and bucket about level with the tip: of d(reach)/dL little is left, and f32 alone keeps 4e-6 of it.
+    /// let (boom, arm, bucket) = (1.115_f32, 1.055_f32, 1.2598_f32);
+    /// let lengths = Cylinders { boom, arm, bucket };
+    /// let (_, fine) = Machine::<f32>::new(&PinGeometry::EXACT_MINI)?
+    ///     .cylinders_to_tip_with_fine_jacobian(&lengths, Rotor::IDENTITY)?;
+    /// let [boom, arm, bucket] = [boom, arm, bucket].map(f64::from);
+    /// let (_, exact) = Machine::<f64>::new(&PinGeometry::EXACT_MINI)?
+    ///     .cylinders_to_tip_with_fine_jacobian(&Cylinders { boom, arm, bucket }, Rotor::IDENTITY)?;
+    /// let largest = exact.reach.iter().fold(0.0, |l: f64, x| if x.abs() > l { x.abs() } else { l });
+    /// for (fine, exact) in fine.reach.into_iter().zip(exact.reach) {
+    ///     assert!((f64::from(fine) - exact).abs() < 2e-6 * largest);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Machine::cylinders_to_tip_with_jacobian`].
+    #[inline]
+    pub fn cylinders_to_tip_with_fine_jacobian(
+        &self,
+        cylinders: &Cylinders<T>,
+        swing: Rotor<T>,
+    ) -> Result<(Pose<T>, CylinderJacobian<T>), PoseError<T>> {
+        self.check_strokes(cylinders)?;
+        let found = self.fixed.as_ref().and_then(|kernel| kernel.run(cylinders));
+        let Some(Found { joints, plane, levers, transmissions, .. }) = found else {
+            return self.cylinders_to_tip_with_jacobian(cylinders, swing);
+        };
+        let pose = Pose { swing, joints, plane, x: plane.reach * swing.cos, y: plane.reach * swing.sin };
+        Ok((pose, CylinderJacobian::new(levers, transmissions)))
     }
 }

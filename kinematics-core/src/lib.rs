@@ -39,9 +39,15 @@
 
 pub mod chain;
 pub mod chain_n;
+mod cylinder_bias;
 pub mod cylinder_jacobian;
 pub mod distances;
 mod error;
+mod fine_swing;
+mod fixed;
+mod fixed_chain;
+mod fixed_kernel;
+mod fixed_linkage;
 pub mod forces;
 pub mod four_bar;
 pub mod geometry;

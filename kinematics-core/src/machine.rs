@@ -1,6 +1,7 @@
 //! The whole machine: cylinders ↔ joints ↔ tip, with stroke and assembly checks.
 
 use crate::chain::{Chain, Joints, PlaneTip};
+use crate::fixed_kernel::FixedKernel;
 use crate::four_bar::{FourBar, Gap};
 use crate::geometry::{GeometryError, PinGeometry};
 use crate::sector::Sector;
@@ -80,7 +81,9 @@ impl<T: Real> Pose<T> {
 /// # Ok(())
 /// # }
 /// ```
+// In this order: what poses need stands first, within the reach of the ECU's short offsets.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Machine<T> {
     pub(crate) boom: Triangle<T>,
     pub(crate) arm: Triangle<T>,
@@ -90,6 +93,8 @@ pub struct Machine<T> {
     /// Joint angles of boom, arm, bucket over their strokes, tolerance included.
     sectors: [Sector<T>; 3],
     swing: Option<SwingCylinder<T>>,
+    /// For [`Machine::cylinders_to_tip_with_fine_jacobian`], where it can have one.
+    pub(crate) fixed: Option<FixedKernel<T>>,
 }
 
 pub(crate) fn open<T>(cylinder: Cylinder) -> impl Fn(T) -> PoseError<T> {
@@ -116,6 +121,7 @@ impl<T: Real> Machine<T> {
             strokes: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(StrokeCheck::new),
             sectors: g.sectors()?,
             swing: g.swing.as_ref().map(SwingCylinder::from_pins),
+            fixed: FixedKernel::new(g),
         })
     }
 

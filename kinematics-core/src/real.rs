@@ -17,6 +17,7 @@ use crate::sqrt::{sqrt_f32, sqrt_f64};
 /// assert_eq!(f32::from_f64(0.1).to_f64(), f64::from(0.1_f32));
 /// assert_eq!(f64::from_i32(-3) + f64::ONE + f64::ZERO, -2.0);
 /// assert_eq!([2.4_f32, 2.5, -2.5, 1e12, f32::NAN].map(Real::nearest_i32), [2, 3, -3, i32::MAX, 0]);
+/// assert_eq!([2.9_f32, -2.9, 1e12, f32::NAN].map(Real::truncated_i32), [2, -2, i32::MAX, 0]);
 /// assert_eq!((-4.0_f32).sqrt_of_magnitude(), 2.0);
 /// assert_eq!(<f64 as Real>::atan2(1.0, 0.0), core::f64::consts::FRAC_PI_2);
 /// ```
@@ -40,6 +41,13 @@ pub trait Real:
 
     /// The value `n`, exactly where the type can hold it.
     fn from_i32(n: i32) -> Self;
+
+    /// Whether steps of 2⁻³⁰ are finer than this type's next to one: sums that cancel are then formed in fixed point
+    /// ([`crate::Machine::cylinders_to_tip_with_fine_jacobian`]).
+    const COARSER_THAN_FIXED: bool;
+
+    /// The integer next to it towards zero, saturating; 0 for NaN.
+    fn truncated_i32(self) -> i32;
 
     /// The nearest integer, halves away from zero, saturating; 0 for NaN.
     fn nearest_i32(self) -> i32;
@@ -106,6 +114,12 @@ impl<T: Real> Split<T> {
 impl Real for f32 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const COARSER_THAN_FIXED: bool = true;
+
+    #[inline(always)]
+    fn truncated_i32(self) -> i32 {
+        self as i32
+    }
 
     #[inline(always)]
     fn from_i32(n: i32) -> Self {
@@ -141,6 +155,12 @@ impl Real for f32 {
 impl Real for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const COARSER_THAN_FIXED: bool = false;
+
+    #[inline(always)]
+    fn truncated_i32(self) -> i32 {
+        self as i32
+    }
 
     #[inline(always)]
     fn from_i32(n: i32) -> Self {

@@ -190,6 +190,12 @@ impl<T: Real> SwingJacobian<T> {
         (self.reach * along.z, self.plane.joint_torques(&plane))
     }
 
+    /// This reach in place of its own sum.
+    #[inline(always)]
+    pub(crate) fn with_reach(self, reach: T) -> Self {
+        Self { reach, ..self }
+    }
+
     #[inline(always)]
     fn swung(&self, reach: T, left: T, z: T, pitch: T) -> BaseTwist<T> {
         let Vec2 { x, z: y } = self.swing.rotate(Vec2::new(reach, left));

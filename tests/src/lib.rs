@@ -22,6 +22,7 @@ pub mod measure;
 pub mod oracle;
 pub mod papers;
 pub mod promises;
+pub mod rates;
 pub mod rig;
 pub mod stated;
 pub mod sweep;

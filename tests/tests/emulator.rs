@@ -1,5 +1,7 @@
 //! The same application on the emulated Cortex-M4F: the same bits as on the host, in the time and memory there is.
 
+use bench::bits;
+use cross_tests::machines;
 use cross_tests::rig::{scenario, scenario_names};
 use firmware::Parameters;
 use hil_sim::place::{Emulator, Host, Image, Place, PlaceError};
@@ -100,6 +102,11 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("cylinders_to_tip_unchecked") <= 180);
     assert!(largest("cylinders_to_tip_unchecked") < largest("cylinders_to_tip"));
     assert!(largest("tip_to_cylinders") <= 170);
+    assert!(largest("cylinders_to_tip_with_jacobian") <= 340);
+    assert!(largest("cylinders_to_tip_with_fine_jacobian") <= 570);
+    assert!(largest("cylinder_bias") <= 600);
+    assert!(largest("swing_jacobian") <= 72);
+    assert!(largest("fine_swing_jacobian") <= 175);
     // Stated in the docs of `isotropy` and `redundancy`, with room for another compiler.
     assert!(largest("singularity_distance_3") <= 45);
     assert!(largest("redundancy_3") <= 260);
@@ -111,6 +118,23 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(median("coil_stage_driven") <= 1200 && largest("coil_stage_driven") <= 1850);
     assert!(largest("coil_stage_dying") <= 1600);
     assert!(largest("coil_stage_off") <= 200);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_fixed_point_kernels_give_the_same_bits_on_host_and_target() {
+    let image = Image::build("bench-emulated").unwrap_or_else(|error| panic!("{error}"));
+    let printed = Emulator::start(&image).and_then(Emulator::printed).unwrap_or_else(|error| panic!("{error}"));
+    let mut hashes = Vec::new();
+    for (name, g) in machines::all().unwrap().into_iter().filter(|(name, _)| ["exact-mini", "frankel"].contains(name)) {
+        let (hash, answered) = bits::fine(&g).expect("an accepted geometry");
+        let line = format!("# bits of the fine kernels, {name}: {hash:08x} at {answered} poses");
+        println!("{line}");
+        assert!(answered > bits::POSES - 10, "{line}");
+        assert!(printed.lines().any(|printed| printed == line), "the host says\n{line}\nand the image\n{printed}");
+        hashes.push(hash);
+    }
+    assert!(matches!(hashes[..], [one, other] if one != other), "{hashes:x?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use bench::seed::single::Dimensions;
+use bench::{bits, ours};
 use cortex_m_rt::entry;
 use kinematics_core::chain_n::PlanarChain;
 use kinematics_core::cylinder_jacobian::CylinderJacobian;
@@ -22,7 +23,7 @@ use kinematics_core::planning::time_scaling::{Pace, Progress, TimeScaling};
 use kinematics_core::planning::tip_path::TipPath;
 use kinematics_core::rates::{CylinderRates, MomentArms};
 use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
-use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
+use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::coils::coils;
@@ -53,6 +54,34 @@ fn cylinders_to_tip_with_jacobian(
     swing: Rotor<f32>,
 ) -> Result<(Pose<f32>, CylinderJacobian<f32>), PoseError<f32>> {
     machine.cylinders_to_tip_with_jacobian(cylinders, swing)
+}
+
+#[inline(never)]
+fn cylinders_to_tip_with_fine_jacobian(
+    machine: &Machine<f32>,
+    cylinders: &Cylinders<f32>,
+    swing: Rotor<f32>,
+) -> Result<(Pose<f32>, CylinderJacobian<f32>), PoseError<f32>> {
+    machine.cylinders_to_tip_with_fine_jacobian(cylinders, swing)
+}
+
+#[inline(never)]
+fn cylinder_bias(
+    machine: &Machine<f32>,
+    cylinders: &Cylinders<f32>,
+    rates: &CylinderRates<f32>,
+) -> Result<Twist<f32>, PoseError<f32>> {
+    machine.cylinder_bias(cylinders, rates)
+}
+
+#[inline(never)]
+fn swing_jacobian(machine: &Machine<f32>, joints: &Joints<f32>, swing: Rotor<f32>) -> [[f32; 4]; 4] {
+    machine.chain().swing_jacobian(joints, swing).matrix()
+}
+
+#[inline(never)]
+fn fine_swing_jacobian(machine: &Machine<f32>, joints: &Joints<f32>, swing: Rotor<f32>) -> [[f32; 4]; 4] {
+    machine.chain().fine_swing_jacobian(joints, swing).matrix()
 }
 
 #[inline(never)]
@@ -203,6 +232,17 @@ fn angles(out: &mut Out, stopwatch: &Stopwatch) {
     row(out, stopwatch, "angles_tip_to_cylinders", tip, |tip| angles_tip_to_cylinders(&seed, tip));
 }
 
+/// What the fixed-point kernels come to, bit for bit: no rows, but lines for the test to compare with the host's.
+fn bits(out: &mut Out) {
+    let Ok(frankel) = ours::frankel().to_pins() else { fail() };
+    for (name, geometry) in [("exact-mini", PinGeometry::EXACT_MINI), ("frankel", frankel)] {
+        let Some((hash, answered)) = bits::fine(&geometry) else { fail() };
+        if writeln!(out, "# bits of the fine kernels, {name}: {hash:08x} at {answered} poses").is_err() {
+            fail();
+        }
+    }
+}
+
 #[entry]
 fn main() -> ! {
     let Some(peripherals) = Peripherals::take() else { fail() };
@@ -226,6 +266,14 @@ fn main() -> ! {
     row(&mut out, s, "cylinders_to_tip", along, |c| cylinders_to_tip(m, c, swing));
     row(&mut out, s, "cylinders_to_tip_unchecked", along, |c| cylinders_to_tip_unchecked(m, c, swing));
     row(&mut out, s, "cylinders_to_tip_with_jacobian", along, |c| cylinders_to_tip_with_jacobian(m, c, swing));
+    row(&mut out, s, "cylinders_to_tip_with_fine_jacobian", along, |c| {
+        cylinders_to_tip_with_fine_jacobian(m, c, swing)
+    });
+    let rates = black_box(CylinderRates { boom: 0.1, arm: -0.2, bucket: 0.3 });
+    row(&mut out, s, "cylinder_bias", along, |c| cylinder_bias(m, c, &rates));
+    let given = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).joints;
+    row(&mut out, s, "swing_jacobian", given, |j| swing_jacobian(m, j, swing));
+    row(&mut out, s, "fine_swing_jacobian", given, |j| fine_swing_jacobian(m, j, swing));
     row(&mut out, s, "moment_arms", along, |c| moment_arms(m, c));
     let jacobian = |t: f32| match m.cylinders_to_tip_with_jacobian(&along(t), swing) {
         Ok((_, jacobian)) => jacobian,
@@ -277,5 +325,6 @@ fn main() -> ! {
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     coils(&mut out, s);
     angles(&mut out, s);
+    bits(&mut out);
     succeed()
 }

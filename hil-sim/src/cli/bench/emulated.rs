@@ -11,8 +11,10 @@ use crate::scenario::Scenario;
 /// The maps, each alone, from the bench image.
 pub(super) fn maps() -> Result<Vec<Row>, AnyError> {
     let printed = Emulator::start(&Image::build("bench-emulated")?)?.printed()?;
+    // Lines with # are for the tests.
     printed
         .lines()
+        .filter(|line| !line.starts_with('#'))
         .map(|line| {
             let mut words = line.split_whitespace();
             let row = (words.next(), words.next().map(str::parse), words.next().map(str::parse));
