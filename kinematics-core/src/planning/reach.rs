@@ -113,6 +113,10 @@ enum Phase<T, const N: usize> {
 ///     (!matches!(told.progress, Progress::Planning | Progress::Moving)).then_some(told.progress)
 /// });
 /// assert_eq!(ended, Some(Progress::Reached));
+/// // From where it stands now it has nothing left to do.
+/// reach.restart();
+/// let again = (0..20_000).map(|_| reach.tick(&joints, 0.001)).find(|told| told.progress == Progress::Reached);
+/// assert!(again.is_some());
 /// // Inside a ball there is no pose to reach.
 /// let around = Sphere { x: 0.0, y: 2.5, z: 0.2, radius: 0.3 };
 /// let mut reach = Reach::new(avoid, chain, target, [around], 0.01);
@@ -171,6 +175,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
             replans: 0,
             passed_over: 0,
         }
+    }
+
+    /// Back to the first tick: another start, the same target.
+    pub fn restart(&mut self) {
+        self.phase = Phase::Poses { pitch: 0, of: PITCHES };
+        self.replans = 0;
     }
 
     /// One tick of `dt` s at these joints (swing, boom, arm, bucket).
