@@ -11,34 +11,35 @@ pub(super) struct DelayLine {
     /// The first at tick 0; a ring.
     kept: [f32; KEPT],
     ticks: u32,
-    /// Ticks from one kept value to the next.
-    every: NonZeroU32,
+    /// Ticks left out from one kept value to the next.
+    between: u32,
 }
 
 impl DelayLine {
     /// Without delay.
     pub(super) const fn new() -> Self {
-        Self { kept: [0.0; KEPT], ticks: 0, every: NonZeroU32::MIN }
+        Self { kept: [0.0; KEPT], ticks: 0, between: 0 }
     }
 
     pub(super) fn set_delay(&mut self, ticks: u32) {
         self.ticks = ticks;
-        self.every = NonZeroU32::MIN.saturating_add(ticks / (KEPT as u32 - 1));
+        self.between = ticks / (KEPT as u32 - 1);
     }
 
     /// Takes the value of `tick`, counted from 1, one after the other, and tells the delayed one; before the first it is 0.
     pub(super) fn pass(&mut self, tick: u32, value: f32) -> f32 {
-        if tick % self.every == 0 {
-            if let Some(kept) = self.kept.get_mut((tick / self.every) as usize % KEPT) {
+        let every = NonZeroU32::MIN.saturating_add(self.between);
+        if tick % every == 0 {
+            if let Some(kept) = self.kept.get_mut((tick / every) as usize % KEPT) {
                 *kept = value;
             }
         }
         let Some(then) = tick.checked_sub(self.ticks).filter(|then| *then > 0) else { return 0.0 };
-        let (number, beyond) = (then / self.every, then % self.every);
+        let (number, beyond) = (then / every, then % every);
         let kept = |number: u32| self.kept.get(number as usize % KEPT).copied().unwrap_or(0.0);
         // The first place may hold a later round's value: that of tick 0 is 0.
         let before = if number == 0 { 0.0 } else { kept(number) };
-        if beyond == 0 { before } else { before + (kept(number + 1) - before) * (beyond as f32 / self.every.get() as f32) }
+        if beyond == 0 { before } else { before + (kept(number + 1) - before) * (beyond as f32 / every.get() as f32) }
     }
 }
 

@@ -10,6 +10,7 @@ mod reach;
 mod tracker;
 
 use core::borrow::BorrowMut;
+use core::cell::Cell;
 
 use kinematics_core::{Cylinders, Machine, Pose};
 
@@ -17,7 +18,7 @@ use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
-use crate::parameters::{ParameterError, Parameters};
+use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use dig::DigFollower;
 use levers::Levers;
@@ -47,7 +48,8 @@ impl Wanted {
 #[derive(Clone, Debug)]
 pub struct Followers {
     planned: MoveFollower,
-    reach: Option<ReachFollower>,
+    /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
+    reach: Option<Cell<ReachFollower>>,
 }
 
 impl Followers {
@@ -61,9 +63,14 @@ impl Followers {
         if let Some(planned) = &p.planned_move {
             self.planned.plan(&p.motion, machine, planned).map_err(ParameterError::Move)?;
         }
-        if let Some(reach) = &p.reach {
-            self.reach = Some(ReachFollower::new(reach, &p.geometry, machine, &p.valves, &p.motion)?);
-        }
+        self.reach = None;
+        p.reach.as_ref().map_or(Ok(()), |reach| self.plan_reach(reach, p, machine))
+    }
+
+    // Not inlined, so that the stack holds either's planning but not both.
+    #[inline(never)]
+    fn plan_reach(&mut self, reach: &ReachParameters, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.valves, &p.motion)?));
         Ok(())
     }
 }
@@ -113,7 +120,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         let followers = self.followers.borrow_mut();
         followers.planned.reset();
         if let Some(reach) = &mut followers.reach {
-            reach.reset();
+            reach.get_mut().reset();
         }
     }
 
@@ -142,7 +149,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
             Request::Move => self.followers.borrow_mut().planned.follow(lengths),
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;
-                reach.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, pose, lengths)
+                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)
             }
             Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
         }

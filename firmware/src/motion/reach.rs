@@ -16,7 +16,7 @@ use crate::parameters::{MotionParameters, ParameterError, ReachParameters, Valve
 const NOWHERE: Sphere<f32> = Sphere { x: 0.0, y: 0.0, z: 1000.0, radius: 0.0 };
 
 /// The follower of one target.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct ReachFollower {
     reach: Reach<f32, 2>,
     /// Full speed of swing, boom, arm, bucket: \[extend, retract\].

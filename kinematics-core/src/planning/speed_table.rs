@@ -37,8 +37,8 @@ pub(crate) struct SpeedTable {
     entry: [u32; CELLS],
     /// The change of speed a tick.
     pub(crate) step: u64,
-    /// Ticks of the average.
-    pub(crate) average: usize,
+    /// Ticks of the average, less one: the table of no path is all zeros, and an image needs no flash for it.
+    last: usize,
 }
 
 /// What a choice of a and j leaves.
@@ -56,7 +56,7 @@ fn square(speed: u32) -> u64 {
 impl SpeedTable {
     /// Of no path: every speed is zero.
     pub(crate) const STANDSTILL: Self =
-        Self { cap: [0; CELLS], ahead: [0; CELLS], entry: [0; CELLS], step: 0, average: 1 };
+        Self { cap: [0; CELLS], ahead: [0; CELLS], entry: [0; CELLS], step: 0, last: 0 };
 
     /// Fills in the quickest table of those tried; `None` where the path needs more than the tick resolves.
     pub(crate) fn plan<T: Real, const K: usize>(
@@ -93,7 +93,7 @@ impl SpeedTable {
         tick_s: f64,
         choice: &Choice<T>,
     ) -> bool {
-        (self.step, self.average) = (choice.step, choice.average);
+        (self.step, self.last) = (choice.step, choice.average - 1);
         // Until they are spread, the caps stand where `ahead` will.
         let mut fastest = 0;
         for (slot, (from, to)) in self.ahead.iter_mut().zip(cells::<T>()) {
@@ -131,6 +131,11 @@ impl SpeedTable {
         true
     }
 
+    /// Ticks of the average.
+    pub(crate) fn average(&self) -> usize {
+        self.last + 1
+    }
+
     /// What the square of the speed gains over a cell.
     fn gained(&self) -> u64 {
         (2 * self.step).saturating_mul(1 << CELL_BITS)
@@ -157,7 +162,7 @@ impl SpeedTable {
         let after = self.entry.iter().skip(1).chain(core::iter::once(&0));
         let mut reached = 0_u64;
         let mut slow = T::ZERO;
-        let mut ticks = T::from_i32(self.average as i32);
+        let mut ticks = T::from_i32(self.last as i32 + 1);
         for (entry, after) in self.entry.iter().zip(after) {
             reached = core::cmp::min(reached.saturating_add(gained), core::cmp::min(square(*after), square(*entry)));
             let fast = T::from_f64(reached as f64).sqrt();

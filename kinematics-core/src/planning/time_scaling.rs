@@ -131,7 +131,7 @@ impl<T: Real> TimeScaling<T> {
         tick_s: f64,
     ) -> Result<(), NoProfile> {
         self.table.plan(path, limits, tick_s).ok_or(NoProfile)?;
-        let s = 1.0 / (WHOLE as f64 * self.table.average as f64);
+        let s = 1.0 / (WHOLE as f64 * self.table.average() as f64);
         let per_tick = 1.0 / tick_s;
         self.scale = [s, s * per_tick, s * per_tick * per_tick, s * per_tick * per_tick * per_tick];
         Ok(())
@@ -140,7 +140,7 @@ impl<T: Real> TimeScaling<T> {
     /// One tick; `share` of the planned speed, 0 (come to rest) to 1, may change at any time: a pump that gives less, an
     /// operator who asks for less.
     pub fn advance(&self, pace: &mut Pace<T>, share: T) -> Progress<T> {
-        let average = self.table.average;
+        let average = self.table.average();
         let leaving = pace.speeds.get(pace.at).map_or(0, |speed| u64::from(*speed));
         let before = pace.speeds.get(if pace.at == 0 { average - 1 } else { pace.at - 1 });
         let last = before.map_or(0, |speed| u64::from(*speed));
@@ -185,7 +185,7 @@ impl<T: Real> TimeScaling<T> {
         // n ticks ago the speed changed from `dropped` to `leaving`.
         let (rose, fell) = (leaving > pace.dropped, leaving < pace.dropped);
         let up = last + table.step;
-        let place_then = pace.place + up * (table.average as u64 + 1);
+        let place_then = pace.place + up * (table.average() as u64 + 1);
         let could_stay = within(up, wanted(table.limit_square(place_then)))
             && within(up, wanted(table.cap_ahead_square(pace.place)));
         let speed = if !fell && could_stay {
