@@ -124,15 +124,28 @@ impl Move {
         self.path = None;
         let limits = p.limits()?;
         let plan = p.pitches(machine)?;
-        let path = CylinderPath::new(&plan.cylinders, &limits).ok_or(MoveError::NoMovement)?;
+        self.lay(machine, &plan, &limits, tick_s)?;
+        Ok(plan)
+    }
+
+    /// The path through a plan's knots, and its speeds. Not inlined, so that the stack does not hold it while pitches are planned.
+    #[inline(never)]
+    fn lay(
+        &mut self,
+        machine: &Machine<f32>,
+        plan: &PitchPlan<f32, KNOTS>,
+        limits: &Limits<f32>,
+        tick_s: f64,
+    ) -> Result<(), MoveError> {
+        let path = CylinderPath::new(&plan.cylinders, limits).ok_or(MoveError::NoMovement)?;
         let places = BETWEEN_KNOTS * (KNOTS as i32 - 1);
         for i in 0..=places {
             let lengths = path.at(i as f32 / places as f32).lengths;
             machine.check_strokes(&lengths).map_err(MoveError::Stroke)?;
         }
-        self.scaling.plan(&path, &limits, tick_s).map_err(MoveError::Profile)?;
+        self.scaling.plan(&path, limits, tick_s).map_err(MoveError::Profile)?;
         self.path = Some(path);
-        Ok(plan)
+        Ok(())
     }
 }
 

@@ -279,10 +279,14 @@ impl<T: Real, const N: usize> Reach<T, N> {
     fn try_posture(&mut self, index: usize, mut best: [Option<Pose<T>>; POSTURES]) {
         let Some(goal) = self.goal() else { return self.end(Progress::Blocked) };
         let start = self.avoid.aim(&self.start);
-        let share = |n: usize, of: usize| 1.9 * (n as f64 / (of - 1) as f64) - 0.95;
+        let share = |n: usize, spacing: f64| T::from_i32(n as i32) * T::from_f64(spacing) - T::from_f64(0.95);
         let (kind, rest) = (index % POSTURES, index / POSTURES);
         let [boom, arm, bucket] = &self.avoid.travels;
-        let planar = [boom.at(share(rest % 5, 5)), arm.at(share(kind, POSTURES)), bucket.at(share(rest / 5, 3))];
+        let planar = [
+            boom.at(share(rest % 5, 1.9 / 4.0)),
+            arm.at(share(kind, 1.9 / (POSTURES - 1) as f64)),
+            bucket.at(share(rest / 5, 1.9 / 2.0)),
+        ];
         let keep = self.avoid.stop;
         let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, self.avoid.hull.thickest_m(), keep));
         let [b, a, k] = planar;
