@@ -70,7 +70,11 @@ impl ReachFollower {
         let joints = [pose.swing, pose.joints.boom, pose.joints.arm, pose.joints.bucket];
         let told = self.reach.tick(&joints, TICK_S);
         match told.progress {
-            Progress::Planning | Progress::Moving | Progress::Reached => {}
+            Progress::Planning | Progress::Reached => {
+                self.creep = [Creep::REST; 4];
+                return Ok(Wanted::hold(lengths));
+            }
+            Progress::Moving => {}
             Progress::Blocked | Progress::NoRoute | Progress::NotConverged => return Err(Fault::Trajectory),
         }
         let arms = machine.moment_arms(lengths).map_err(|_| Fault::Geometry)?;

@@ -1,6 +1,6 @@
 //! The way to a target: which of the poses that reach it, which way round the obstacles, and the step along it.
 //!
-//! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about one [`Avoid::step`]'s cost.
+//! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about half an [`Avoid::step`]'s cost.
 //! 1. *Poses*: [`PITCHES`] bucket pitches at the target, before the swing axis and behind it, each by the closed-form inverse; kept are the nearest clear one and
 //!    the clearest. None clear is [`Progress::Blocked`].
 //! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing; kept is the nearest clear one of each arm angle.
@@ -8,10 +8,11 @@
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
 //!
-//! Then the same step follows it at the loop's rate. A step that gets stuck all the same plans anew from where it stands and takes
+//! Then the same step follows it, one in two ticks: the first looks where everything is, the second chooses the rates, which hold
+//! for two ticks. At 1 kHz that is a step every 2 ms, against time constants of a quarter of a second and more. A step that gets stuck all the same plans anew from where it stands and takes
 //! the next route that arrives, [`REPLANS`] times at most: [`Progress::NotConverged`].
 
-use super::avoid::{Aim, Avoid, Step, advanced};
+use super::avoid::{Aim, Avoid, Step, Survey, advanced};
 use super::hull::Sphere;
 use super::route::{Bearing, Map, POSTURES, ROUTES, Route};
 use crate::chain::Chain;
@@ -143,6 +144,10 @@ pub struct Reach<T, const N: usize> {
     replans: u8,
     /// Routes that arrived in rehearsal and are yet passed over: as many as got stuck before.
     passed_over: u8,
+    /// The first half of a step, done in the tick before.
+    survey: Option<Survey<T, N>>,
+    /// The rates until the next step is complete.
+    rates: [T; 4],
 }
 
 /// What a tick says.
@@ -174,6 +179,8 @@ impl<T: Real, const N: usize> Reach<T, N> {
             times: [-T::ONE; ROUTES],
             replans: 0,
             passed_over: 0,
+            survey: None,
+            rates: [T::ZERO; 4],
         }
     }
 
@@ -227,6 +234,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         self.start = *joints;
         (self.nearest, self.clearest, self.second_pose) = (None, None, false);
         self.passed_over = self.replans;
+        (self.survey, self.rates) = (None, [T::ZERO; 4]);
     }
 
     /// Clear by a little more than the step's own stop, so that it arrives.
@@ -356,8 +364,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
 
     fn rehearse(&mut self, mut along: Along<T>, joints: [Rotor<T>; 4], steps: u32) {
         let dt = T::from_f64(REHEARSED_STEP_S);
+        let Some(survey) = self.survey.take() else {
+            self.survey = Some(self.avoid.survey(&joints, &self.obstacles));
+            return;
+        };
         let Some(aim) = along.route.aim(along.passed) else { return self.next_route() };
-        let step = self.avoid.step(&joints, &aim, &self.obstacles);
+        let step = self.avoid.choose(&survey, &aim);
         let last = along.route.is_last(along.passed);
         if along.stuck_after(&step, dt) || steps >= REHEARSED_STEPS {
             self.next_route();
@@ -378,8 +390,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
     }
 
     fn follow(&mut self, mut along: Along<T>, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
+        let Some(survey) = self.survey.take() else {
+            self.survey = Some(self.avoid.survey(joints, &self.obstacles));
+            return Told { progress: Progress::Moving, rates: self.rates, clearance: None };
+        };
         let Some(aim) = along.route.aim(along.passed) else { return self.stuck() };
-        let step = self.avoid.step(joints, &aim, &self.obstacles);
+        let step = self.avoid.choose(&survey, &aim);
         let told = Told { progress: Progress::Moving, rates: step.rates, clearance: Some(step.clearance) };
         if along.route.is_last(along.passed) {
             if self.miss_square(joints) <= self.tolerance * self.tolerance {
@@ -389,9 +405,10 @@ impl<T: Real, const N: usize> Reach<T, N> {
         } else if step.to_go_s < T::from_f64(PASSED_S) {
             along.passed += 1;
         }
-        if along.stuck_after(&step, dt) {
+        if along.stuck_after(&step, dt + dt) {
             return self.stuck();
         }
+        self.rates = step.rates;
         self.phase = Phase::Follow { along };
         told
     }
