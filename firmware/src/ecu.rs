@@ -1,13 +1,14 @@
 //! The whole application: one tick from inputs to outputs.
 
+use core::borrow::BorrowMut;
+
 use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::{Command, Intent};
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
-use crate::motion::{Motion, Wanted};
-use crate::moves::Move;
+use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
@@ -15,16 +16,14 @@ use crate::supervisor::{Gate, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::Valve;
 
-/// The control period, s; rounded to f32 it is [`crate::TICK_S`].
-const TICK: f64 = 0.001;
-
-/// The controller: stages, the supervisor, and the last valid pose.
+/// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
+/// in an image, by reference.
 #[derive(Clone, Debug)]
-pub struct Ecu {
+pub struct Ecu<F = Followers> {
     machine: Machine<f32>,
     sensing: Sensing,
     command: Command,
-    motion: Motion,
+    motion: Motion<F>,
     supervisor: Supervisor,
     valve: Valve,
     tick: u32,
@@ -33,11 +32,21 @@ pub struct Ecu {
 }
 
 impl Ecu {
+    /// [`Ecu::with`] followers of its own.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        Self::with(parameters, Followers::new())
+    }
+}
+
+impl<F: BorrowMut<Followers>> Ecu<F> {
     /// Validates the parameters, the dig's travel included, plans the move, and builds every stage.
     ///
     /// # Errors
     /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
-    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+    pub fn with(parameters: &Parameters, followers: F) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
         let machine = Machine::new(&p.geometry)?;
@@ -47,14 +56,10 @@ impl Ecu {
         if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));
         }
-        let planned = match &p.planned_move {
-            Some(planned) => Some(Move::new(&machine, planned, TICK).map_err(ParameterError::Move)?),
-            None => None,
-        };
         Ok(Self {
             sensing,
             command: Command::new(p.command_timeout_ticks),
-            motion: Motion::new(p, &machine, dig, planned.as_ref())?,
+            motion: Motion::new(p, &machine, dig, followers)?,
             machine,
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),

@@ -36,10 +36,14 @@ pub mod valve;
 pub use ecu::Ecu;
 pub use fault::{Fault, State};
 pub use io::{Inputs, Outputs, Request};
+pub use motion::Followers;
 pub use parameters::{ParameterError, Parameters};
 
 /// The control period, s.
 pub const TICK_S: f32 = 0.001;
+
+/// The control period, s; rounded to f32 it is [`TICK_S`].
+const TICK: f64 = 0.001;
 
 /// Ticks a second.
 pub const TICKS_PER_S: u32 = 1000;

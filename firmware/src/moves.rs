@@ -93,33 +93,79 @@ impl fmt::Display for MoveError {
 
 impl core::error::Error for MoveError {}
 
-/// A planned move.
+/// A planned move, filled in place: its tables are never handed on by value.
 #[derive(Clone, Debug)]
 pub struct Move {
-    /// Pitches and cylinder lengths at the knots.
-    pub plan: PitchPlan<f32, KNOTS>,
-    /// The smooth path through them.
-    pub path: CylinderPath<f32, KNOTS>,
-    /// How fast along it, at its start.
+    /// The smooth path; `None` before it is planned.
+    pub path: Option<CylinderPath<f32, KNOTS>>,
+    /// How fast along it.
     pub scaling: TimeScaling<f32>,
 }
 
 impl Move {
-    /// Plans it, in bounded work.
+    /// Nothing planned yet.
+    pub const fn unplanned() -> Self {
+        Self { path: None, scaling: TimeScaling::standstill() }
+    }
+
+    /// Plans it, in bounded work; what it says are pitches and lengths at the knots. The configurations are held against
+    /// reach and strokes; a fence is not known here, and every one within them is allowed.
     ///
     /// # Errors
-    /// [`MoveError`]: nothing has moved.
+    /// [`MoveError`]: nothing has moved, and nothing is planned.
     // Not inlined: what planning needs of the stack, an application without a move does not.
     #[inline(never)]
-    pub fn new(machine: &Machine<f32>, p: &MoveParameters, tick_s: f64) -> Result<Self, MoveError> {
-        let limits = Limits::new(&MoveLimits {
+    pub fn plan(
+        &mut self,
+        machine: &Machine<f32>,
+        p: &MoveParameters,
+        tick_s: f64,
+    ) -> Result<PitchPlan<f32, KNOTS>, MoveError> {
+        self.path = None;
+        let limits = p.limits()?;
+        let plan = p.pitches(machine)?;
+        self.lay(machine, &plan, &limits, tick_s)?;
+        Ok(plan)
+    }
+
+    /// The path through a plan's knots, and its speeds. Not inlined, so that the stack does not hold it while pitches are planned.
+    #[inline(never)]
+    fn lay(
+        &mut self,
+        machine: &Machine<f32>,
+        plan: &PitchPlan<f32, KNOTS>,
+        limits: &Limits<f32>,
+        tick_s: f64,
+    ) -> Result<(), MoveError> {
+        let path = CylinderPath::new(&plan.cylinders, limits).ok_or(MoveError::NoMovement)?;
+        let places = BETWEEN_KNOTS * (KNOTS as i32 - 1);
+        for i in 0..=places {
+            let lengths = path.at(i as f32 / places as f32).lengths;
+            machine.check_strokes(&lengths).map_err(MoveError::Stroke)?;
+        }
+        self.scaling.plan(&path, limits, tick_s).map_err(MoveError::Profile)?;
+        self.path = Some(path);
+        Ok(())
+    }
+}
+
+impl MoveParameters {
+    fn limits(&self) -> Result<Limits<f32>, MoveError> {
+        let p = self;
+        Limits::new(&MoveLimits {
             speed_mps: p.speed_mps,
             acceleration_mps2: p.acceleration_mps2,
             jerk_mps3: p.jerk_mps3,
             areas_m2: p.areas_m2,
             flow_m3ps: p.flow_m3ps,
         })
-        .map_err(MoveError::Limits)?;
+        .map_err(MoveError::Limits)
+    }
+
+    /// The planner's own memory is on the stack only while it runs.
+    #[inline(never)]
+    fn pitches(&self, machine: &Machine<f32>) -> Result<PitchPlan<f32, KNOTS>, MoveError> {
+        let p = self;
         let effort = Effort::travel(p.weights).map_err(MoveError::Weights)?;
         let turns = |degrees: f64| (degrees / 360.0) as f32;
         let start = turns(p.start_pitch_deg);
@@ -136,14 +182,6 @@ impl Move {
             },
             turn_per_knot: turns(p.turn_per_knot_deg),
         };
-        let plan = plan_path(machine, &request, &effort, |_| true).map_err(MoveError::Plan)?;
-        let path = CylinderPath::new(&plan.cylinders, &limits).ok_or(MoveError::NoMovement)?;
-        let places = BETWEEN_KNOTS * (KNOTS as i32 - 1);
-        for i in 0..=places {
-            let lengths = path.at(i as f32 / places as f32).lengths;
-            machine.check_strokes(&lengths).map_err(MoveError::Stroke)?;
-        }
-        let scaling = TimeScaling::new(&path, &limits, tick_s).map_err(MoveError::Profile)?;
-        Ok(Self { plan, path, scaling })
+        plan_path(machine, &request, &effort, |_| true).map_err(MoveError::Plan)
     }
 }

@@ -207,18 +207,23 @@ impl<T: Real> Rotor<T> {
     #[inline]
     fn within_eighth(x: T) -> Self {
         let square = x * x;
-        let series = |denominators: &[f64]| {
-            let mut sum = T::ONE;
-            for &denominator in denominators {
-                sum = T::ONE - square * T::from_f64(1.0 / denominator) * sum;
-            }
-            sum
-        };
         // 1/(n(n−1)) from the innermost term outwards.
-        let cos = series(&[240.0, 182.0, 132.0, 90.0, 56.0, 30.0, 12.0, 2.0]);
-        let sin = x * series(&[272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0, 6.0]);
+        let cos = series(square, [240.0, 182.0, 132.0, 90.0, 56.0, 30.0, 12.0, 2.0]);
+        let sin = x * series(square, [272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0, 6.0]);
         Self { cos, sin }
     }
+}
+
+/// Written out, so that a build for size too divides while it compiles and not in the loop.
+#[inline(always)]
+fn series<T: Real>(square: T, [a, b, c, d, e, f, g, h]: [f64; 8]) -> T {
+    let sum = term(square, c, term(square, b, term(square, a, T::ONE)));
+    term(square, h, term(square, g, term(square, f, term(square, e, term(square, d, sum)))))
+}
+
+#[inline(always)]
+fn term<T: Real>(square: T, denominator: f64, sum: T) -> T {
+    T::ONE - square * T::from_f64(1.0 / denominator) * sum
 }
 
 impl<T: Real> Mul for Rotor<T> {

@@ -48,7 +48,7 @@ fn pitch_speeds_and_pump_flow_stay_within_their_limits() {
     let scenario = scenario("move-least-effort");
     let planned = scenario.parameters.planned_move.expect("a move");
     let machine = Machine::<f32>::new(&scenario.parameters.geometry).expect("valid pins");
-    let plan = Move::new(&machine, &planned, TICK_S).unwrap_or_else(|error| panic!("{error}")).plan;
+    let plan = Move::unplanned().plan(&machine, &planned, TICK_S).unwrap_or_else(|error| panic!("{error}"));
     let Pitch::Bounded { lower_deg, upper_deg } = planned.pitch else { panic!("a bounded pitch") };
     let degrees = plan.pitch_turns.map(|turns| f64::from(turns) * 360.0);
     println!("pitch at the knots: {degrees:.1?}");

@@ -57,7 +57,8 @@ fn run<T: Real>(
     };
     let checked = Limits::<T>::new(limits)?;
     let path = CylinderPath::new(&knots.map(|c| to_t(&c)), &checked).ok_or("no movement")?;
-    let scaling = TimeScaling::new(&path, &checked, TICK_S)?;
+    let mut scaling = TimeScaling::standstill();
+    scaling.plan(&path, &checked, TICK_S)?;
     let mut pace = Pace::start();
     // Differences are taken of the same path in f64: of f32 lengths they would show rounding alone.
     let exact = CylinderPath::new(knots, &Limits::<f64>::new(limits)?).ok_or("no movement")?;

@@ -2,20 +2,23 @@
 //! a target past obstacles, `levers` obeys.
 
 mod creep;
+mod delay;
 mod dig;
 mod levers;
 mod planned;
 mod reach;
 mod tracker;
 
-use kinematics_core::{Cylinders, Machine, PinGeometry, Pose};
+use core::borrow::BorrowMut;
+use core::cell::Cell;
+
+use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
-use crate::moves::Move;
-use crate::parameters::{ParameterError, Parameters};
+use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use dig::DigFollower;
 use levers::Levers;
@@ -40,39 +43,70 @@ impl Wanted {
     }
 }
 
-/// The motion stage.
+/// What following a planned move or reaching past obstacles needs of memory: about 9 KiB, filled in place. An image gives it as a
+/// static, so that it never lies on the stack.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct Followers {
+    planned: MoveFollower,
+    /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
+    reach: Option<Cell<ReachFollower>>,
+}
+
+impl Followers {
+    /// Of nothing yet.
+    pub const fn new() -> Self {
+        Self { planned: MoveFollower::new(), reach: None }
+    }
+
+    /// Plans what the parameters ask for.
+    fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        if let Some(planned) = &p.planned_move {
+            self.planned.plan(&p.motion, machine, planned).map_err(ParameterError::Move)?;
+        }
+        self.reach = None;
+        p.reach.as_ref().map_or(Ok(()), |reach| self.plan_reach(reach, p, machine))
+    }
+
+    // Not inlined, so that the stack holds either's planning but not both.
+    #[inline(never)]
+    fn plan_reach(&mut self, reach: &ReachParameters, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.valves, &p.motion)?));
+        Ok(())
+    }
+}
+
+impl Default for Followers {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The motion stage. `F` holds [`Followers`], by value or by reference.
+#[derive(Clone, Debug)]
+pub struct Motion<F = Followers> {
     dig: Option<DigFollower>,
-    planned: Option<MoveFollower>,
     levers: Levers,
-    reach: Option<ReachFollower>,
+    followers: F,
     /// The request of the last tick; another one starts over.
     request: Request,
 }
 
-impl Motion {
+impl<F: BorrowMut<Followers>> Motion<F> {
     /// Of validated parameters.
     ///
     /// # Errors
-    /// What planning past obstacles lacks.
+    /// Why a move has no plan; what planning past obstacles lacks.
     pub(crate) fn new(
         p: &Parameters,
         machine: &Machine<f32>,
         dig: Option<Dig<f32>>,
-        planned: Option<&Move>,
+        mut followers: F,
     ) -> Result<Self, ParameterError> {
-        let (valves, smallest) = (&p.valves, p.motion.smallest_speed_mps);
-        let geometry: &PinGeometry = &p.geometry;
-        let reach = match &p.reach {
-            Some(reach) => Some(ReachFollower::new(reach, geometry, machine, valves, &p.motion)?),
-            None => None,
-        };
+        followers.borrow_mut().plan(p, machine)?;
         Ok(Self {
             dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
-            planned: planned.map(|planned| MoveFollower::new(&p.motion, planned)),
-            levers: Levers::new(valves, smallest),
-            reach,
+            levers: Levers::new(&p.valves, p.motion.smallest_speed_mps),
+            followers,
             request: Request::Neutral,
         })
     }
@@ -83,11 +117,10 @@ impl Motion {
         if let Some(dig) = &mut self.dig {
             dig.reset();
         }
-        if let Some(planned) = &mut self.planned {
-            planned.reset();
-        }
-        if let Some(reach) = &mut self.reach {
-            reach.reset();
+        let followers = self.followers.borrow_mut();
+        followers.planned.reset();
+        if let Some(reach) = &mut followers.reach {
+            reach.get_mut().reset();
         }
     }
 
@@ -113,8 +146,11 @@ impl Motion {
         match intent.request {
             Request::Neutral => Ok(Wanted::hold(lengths)),
             Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
-            Request::Move => self.planned.as_mut().ok_or(Fault::NotConfigured)?.follow(lengths),
-            Request::Reach => self.reach.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, pose, lengths),
+            Request::Move => self.followers.borrow_mut().planned.follow(lengths),
+            Request::Reach => {
+                let reach = &mut self.followers.borrow_mut().reach;
+                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)
+            }
             Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
         }
     }

@@ -1,68 +1,86 @@
-//! Follows a planned move: the time scaling says where on its path, once ahead by the known dead time for the feed-forward
-//! and once for the reference.
+//! Follows a planned move: the time scaling says where on its path, ahead by the known dead time, for the feed-forward; the
+//! reference is where that was a dead time ago.
 
-use kinematics_core::Cylinders;
-use kinematics_core::planning::cylinder_path::CylinderPath;
-use kinematics_core::planning::time_scaling::{Pace, TimeScaling};
+use kinematics_core::planning::time_scaling::Pace;
+use kinematics_core::{Cylinders, Machine};
 
 use super::Wanted;
+use super::delay::DelayLine;
 use super::tracker::Tracker;
-use crate::TICKS_PER_S;
 use crate::fault::Fault;
-use crate::moves::{KNOTS, Move};
+use crate::moves::{Move, MoveError, MoveParameters};
 use crate::parameters::MotionParameters;
+use crate::{TICK, TICKS_PER_S};
 
-/// The move's follower.
+/// The move's follower: about 7 KiB that are filled in place.
 #[derive(Clone, Debug)]
 pub(super) struct MoveFollower {
-    path: CylinderPath<f32, KNOTS>,
-    scaling: TimeScaling<f32>,
+    planned: Move,
     ahead: Pace<f32>,
-    now: Pace<f32>,
+    delay: DelayLine,
     preview_ticks: u32,
     /// Ticks since the request; 0 before.
     elapsed: u32,
+    /// Ticks since `ahead` came to rest on the end; 0 before.
+    rested: u32,
     tracker: Tracker,
 }
 
 impl MoveFollower {
-    pub(super) fn new(p: &MotionParameters, planned: &Move) -> Self {
+    /// Without a move.
+    pub(super) const fn new() -> Self {
         Self {
-            path: planned.path,
-            scaling: planned.scaling,
+            planned: Move::unplanned(),
             ahead: Pace::start(),
-            now: Pace::start(),
-            preview_ticks: (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32,
+            delay: DelayLine::new(),
+            preview_ticks: 0,
             elapsed: 0,
-            tracker: Tracker::new(p),
+            rested: 0,
+            tracker: Tracker::IDLE,
         }
     }
 
+    /// Plans the move.
+    pub(super) fn plan(
+        &mut self,
+        p: &MotionParameters,
+        machine: &Machine<f32>,
+        planned: &MoveParameters,
+    ) -> Result<(), MoveError> {
+        self.planned.plan(machine, planned, TICK)?;
+        self.preview_ticks = (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
+        self.delay.set_delay(self.preview_ticks);
+        self.tracker = Tracker::new(p);
+        Ok(())
+    }
+
     /// Back to holding: the next move starts over.
+    #[inline(never)]
     pub(super) fn reset(&mut self) {
         if self.elapsed > 0 {
             self.ahead = Pace::start();
-            self.now = Pace::start();
         }
-        self.elapsed = 0;
+        (self.elapsed, self.rested) = (0, 0);
         self.tracker.reset();
     }
 
     /// Speeds for this tick of the move; at its end it holds.
+    #[inline(never)]
     pub(super) fn follow(&mut self, lengths: &Cylinders<f32>) -> Result<Wanted, Fault> {
+        let path = self.planned.path.as_ref().ok_or(Fault::NotConfigured)?;
         if self.elapsed == 0 {
-            self.tracker.check_start(self.path.at(0.0).lengths, lengths)?;
+            self.tracker.check_start(path.at(0.0).lengths, lengths)?;
         }
-        if self.now.progress().done {
+        if self.rested > self.preview_ticks {
             return Ok(Wanted::hold(lengths));
         }
-        let ahead = self.scaling.advance(&mut self.ahead, 1.0);
-        if self.elapsed >= self.preview_ticks {
-            self.scaling.advance(&mut self.now, 1.0);
+        let ahead = self.planned.scaling.advance(&mut self.ahead, 1.0);
+        if ahead.done {
+            self.rested += 1;
         }
         self.elapsed = self.elapsed.saturating_add(1);
-        let reference = self.path.at(self.now.progress().s).lengths;
-        let [boom, arm, bucket] = self.path.at(ahead.s).slope.map(|slope| slope * ahead.rate);
+        let reference = path.at(self.delay.pass(self.elapsed, ahead.s)).lengths;
+        let [boom, arm, bucket] = path.at(ahead.s).slope.map(|slope| slope * ahead.rate);
         let speeds = self.tracker.speeds(Cylinders { boom, arm, bucket }, reference, lengths)?;
         Ok(Wanted { speeds, reference, dig_tick: self.elapsed.saturating_sub(self.preview_ticks) })
     }

@@ -18,8 +18,6 @@ const NOWHERE: Sphere<f32> = Sphere { x: 0.0, y: 0.0, z: 1000.0, radius: 0.0 };
 /// The follower of one target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReachFollower {
-    /// As it was before the first tick: every request starts over.
-    fresh: Reach<f32, 2>,
     reach: Reach<f32, 2>,
     /// Full speed of swing, boom, arm, bucket: \[extend, retract\].
     full_speeds: [[f32; 2]; 4],
@@ -32,6 +30,7 @@ fn sphere(sphere: Option<Sphere<f64>>) -> Sphere<f32> {
 }
 
 impl ReachFollower {
+    #[inline(never)]
     pub(super) fn new(
         p: &ReachParameters,
         geometry: &PinGeometry,
@@ -47,20 +46,21 @@ impl ReachFollower {
         let target = Target { x: p.target.x as f32, y: p.target.y as f32, z: p.target.z as f32 };
         let reach = Reach::new(avoid, *machine.chain(), target, p.obstacles.map(sphere), p.tolerance_m as f32);
         Ok(Self {
-            fresh: reach,
             reach,
             full_speeds: valves.map(|spool| spool.map(|direction| direction.full_speed)),
             smallest_speed: motion.smallest_speed_mps,
-            creep: [Creep::default(); 4],
+            creep: [Creep::REST; 4],
         })
     }
 
+    #[inline(never)]
     pub(super) fn reset(&mut self) {
-        self.reach = self.fresh;
-        self.creep = [Creep::default(); 4];
+        self.reach.restart();
+        self.creep = [Creep::REST; 4];
     }
 
     /// One tick: planning at first, then towards the target, then rest.
+    #[inline(never)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
@@ -70,7 +70,11 @@ impl ReachFollower {
         let joints = [pose.swing, pose.joints.boom, pose.joints.arm, pose.joints.bucket];
         let told = self.reach.tick(&joints, TICK_S);
         match told.progress {
-            Progress::Planning | Progress::Moving | Progress::Reached => {}
+            Progress::Planning | Progress::Reached => {
+                self.creep = [Creep::REST; 4];
+                return Ok(Wanted::hold(lengths));
+            }
+            Progress::Moving => {}
             Progress::Blocked | Progress::NoRoute | Progress::NotConverged => return Err(Fault::Trajectory),
         }
         let arms = machine.moment_arms(lengths).map_err(|_| Fault::Geometry)?;

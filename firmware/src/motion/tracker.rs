@@ -26,18 +26,27 @@ fn all_within(c: Cylinders<f32>, limit: f32) -> bool {
 }
 
 impl Tracker {
+    /// Nothing to follow.
+    pub(super) const IDLE: Self = Self {
+        gain_per_s: 0.0,
+        smallest_speed_mps: 0.0,
+        start_tolerance_m: 0.0,
+        following_error_m: 0.0,
+        creep: [Creep::REST; 3],
+    };
+
     pub(super) fn new(p: &MotionParameters) -> Self {
         Self {
             gain_per_s: p.gain_per_s,
             smallest_speed_mps: p.smallest_speed_mps,
             start_tolerance_m: p.start_tolerance_m,
             following_error_m: p.following_error_m,
-            creep: [Creep::default(); 3],
+            creep: [Creep::REST; 3],
         }
     }
 
     pub(super) fn reset(&mut self) {
-        self.creep = [Creep::default(); 3];
+        self.creep = [Creep::REST; 3];
     }
 
     /// Whether the cylinders stand near enough to the start.

@@ -1,6 +1,6 @@
 //! Every number of a scenario within its range, by name.
 
-use super::file::{Dig, PitchRule, PlannedMove, ScenarioFile};
+use super::file::{Dig, Obstacle, PitchRule, PlannedMove, Reach, ScenarioFile};
 
 /// The name becomes the report's folder.
 fn name(name: &str) -> Result<(), String> {
@@ -69,6 +69,12 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
     if let Some(planned) = &s.planned_move {
         move_ranges(planned)?;
     }
+    if let Some(reach) = &s.reach {
+        reach_ranges(reach)?;
+    }
+    for (i, obstacle) in s.obstacle.iter().enumerate() {
+        obstacle_ranges(i, obstacle)?;
+    }
     for (i, lever) in s.lever.iter().enumerate() {
         lever.check(s.duration_s).map_err(|what| format!("`lever[{i}]`: {what}"))?;
     }
@@ -134,4 +140,28 @@ fn move_ranges(m: &PlannedMove) -> Result<(), String> {
         (_, None, None) => Ok(()),
         _ => Err("`move.lower_deg` and `move.upper_deg` go with `pitch = \"bounded\"` alone".to_owned()),
     }
+}
+
+fn reach_ranges(r: &Reach) -> Result<(), String> {
+    let far = [-50.0, 50.0];
+    let speed = [0.001, 4.0];
+    within(&[
+        ("reach.target_x_m", r.target_x_m, far),
+        ("reach.target_y_m", r.target_y_m, far),
+        ("reach.target_z_m", r.target_z_m, far),
+        ("reach.tolerance_m", r.tolerance_m, [0.001, 1.0]),
+        ("reach.swing_rad_s", r.swing_rad_s, speed),
+        ("reach.boom_rad_s", r.boom_rad_s, speed),
+        ("reach.arm_rad_s", r.arm_rad_s, speed),
+        ("reach.bucket_rad_s", r.bucket_rad_s, speed),
+    ])
+}
+
+fn obstacle_ranges(number: usize, o: &Obstacle) -> Result<(), String> {
+    let far = [-50.0, 50.0];
+    let fields =
+        [("x_m", o.x_m, far), ("y_m", o.y_m, far), ("z_m", o.z_m, far), ("radius_m", o.radius_m, [0.0, 50.0])];
+    fields.into_iter().try_for_each(|(field, value, range)| {
+        within(&[(&format!("obstacle[{number}].{field}"), value, range)])
+    })
 }

@@ -141,6 +141,13 @@ pub struct Aim<T> {
     pub(crate) places: [T; 3],
 }
 
+/// Where the joints and the obstacles are at one pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Survey<T, const N: usize> {
+    here: Aim<T>,
+    near: [[Near<T>; SEGMENTS]; N],
+}
+
 /// What one step says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<T> {
@@ -242,25 +249,35 @@ impl<T: Real> Avoid<T> {
         smallest(&nearest(&self.hull.place(joints), obstacles))
     }
 
-    /// One step from `joints` (swing, boom, arm, bucket) towards the aim. One copy of it: rehearsal and motion share it.
-    #[inline(never)]
+    /// One step from `joints` (swing, boom, arm, bucket) towards the aim.
     pub fn step<const N: usize>(&self, joints: &[Rotor<T>; 4], aim: &Aim<T>, obstacles: &[Sphere<T>; N]) -> Step<T> {
-        let here = self.aim(joints);
-        let lack = self.lack(&here, aim);
+        self.choose(&self.survey(joints, obstacles), aim)
+    }
+
+    /// The first half of a step: where everything is. One copy of it: rehearsal and motion share it.
+    #[inline(never)]
+    pub(crate) fn survey<const N: usize>(&self, joints: &[Rotor<T>; 4], obstacles: &[Sphere<T>; N]) -> Survey<T, N> {
+        Survey { here: self.aim(joints), near: nearest(&self.hull.place(joints), obstacles) }
+    }
+
+    /// The second half: the rates.
+    #[inline(never)]
+    pub(crate) fn choose<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Step<T> {
+        let Survey { here, near } = survey;
+        let lack = self.lack(here, aim);
         let to_go_s = self.time(&lack);
         let per_time = T::ONE / if to_go_s > self.settle { to_go_s } else { self.settle };
         let mut rates = lack.map(|lack| lack * per_time);
 
-        let near = nearest(&self.hull.place(joints), obstacles);
         let mobility = self.speeds.map(|speed| speed * speed);
         for _ in 0..PASSES {
             for near in near.iter().flatten() {
                 self.give_way(near, &mobility, &mut rates);
             }
-            self.keep_travel(&here, &mut rates);
+            self.keep_travel(here, &mut rates);
         }
-        self.slow_down(&near, &mut rates);
-        Step { rates, to_go_s, clearance: smallest(&near), pace: self.pace(&rates) }
+        self.slow_down(near, &mut rates);
+        Step { rates, to_go_s, clearance: smallest(near), pace: self.pace(&rates) }
     }
 
     /// How fast the distance may shrink, m/s.

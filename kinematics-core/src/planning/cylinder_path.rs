@@ -82,6 +82,7 @@ pub struct CylinderPath<T, const K: usize> {
 
 impl<T: Real, const K: usize> CylinderPath<T, K> {
     /// The spline through the configurations; `None` where nothing moves or a length is no number.
+    #[inline(never)]
     pub fn new(through: &[Cylinders<T>; K], limits: &Limits<T>) -> Option<Self> {
         const { assert!(K >= 2, "a path has two knots at least") };
         let mut steps = [T::ZERO; K];
@@ -183,6 +184,7 @@ pub(crate) fn magnitude<T: Real>(x: T) -> T {
 }
 
 /// The natural cubic spline through `values`, `steps` apart: second derivatives by one sweep down and one back up (Thomas).
+#[inline(never)]
 fn natural_spline<T: Real, const K: usize>(values: &[T; K], steps: &[T; K]) -> [Cubic<T>; K] {
     let [two, six] = [2, 6].map(T::from_i32);
     let mut chords = [T::ZERO; K];

@@ -44,8 +44,8 @@ impl<T: Real> Travel<T> {
     }
 
     /// The joint at a share −1…1 of its travel.
-    pub(crate) fn at(&self, share: f64) -> Rotor<T> {
-        self.middle * Rotor::from_angle(self.half * T::from_f64(share))
+    pub(crate) fn at(&self, share: T) -> Rotor<T> {
+        self.middle * Rotor::from_angle(self.half * share)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The way to a target: which of the poses that reach it, which way round the obstacles, and the step along it.
 //!
-//! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about one [`Avoid::step`]'s cost.
+//! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about half an [`Avoid::step`]'s cost.
 //! 1. *Poses*: [`PITCHES`] bucket pitches at the target, before the swing axis and behind it, each by the closed-form inverse; kept are the nearest clear one and
 //!    the clearest. None clear is [`Progress::Blocked`].
 //! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing; kept is the nearest clear one of each arm angle.
@@ -8,10 +8,11 @@
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
 //!
-//! Then the same step follows it at the loop's rate. A step that gets stuck all the same plans anew from where it stands and takes
+//! Then the same step follows it, one in two ticks: the first looks where everything is, the second chooses the rates, which hold
+//! for two ticks. At 1 kHz that is a step every 2 ms, against time constants of a quarter of a second and more. A step that gets stuck all the same plans anew from where it stands and takes
 //! the next route that arrives, [`REPLANS`] times at most: [`Progress::NotConverged`].
 
-use super::avoid::{Aim, Avoid, Step, advanced};
+use super::avoid::{Aim, Avoid, Step, Survey, advanced};
 use super::hull::Sphere;
 use super::route::{Bearing, Map, POSTURES, ROUTES, Route};
 use crate::chain::Chain;
@@ -113,6 +114,10 @@ enum Phase<T, const N: usize> {
 ///     (!matches!(told.progress, Progress::Planning | Progress::Moving)).then_some(told.progress)
 /// });
 /// assert_eq!(ended, Some(Progress::Reached));
+/// // From where it stands now it has nothing left to do.
+/// reach.restart();
+/// let again = (0..20_000).map(|_| reach.tick(&joints, 0.001)).find(|told| told.progress == Progress::Reached);
+/// assert!(again.is_some());
 /// // Inside a ball there is no pose to reach.
 /// let around = Sphere { x: 0.0, y: 2.5, z: 0.2, radius: 0.3 };
 /// let mut reach = Reach::new(avoid, chain, target, [around], 0.01);
@@ -139,6 +144,10 @@ pub struct Reach<T, const N: usize> {
     replans: u8,
     /// Routes that arrived in rehearsal and are yet passed over: as many as got stuck before.
     passed_over: u8,
+    /// The first half of a step, done in the tick before.
+    survey: Option<Survey<T, N>>,
+    /// The rates until the next step is complete.
+    rates: [T; 4],
 }
 
 /// What a tick says.
@@ -170,7 +179,15 @@ impl<T: Real, const N: usize> Reach<T, N> {
             times: [-T::ONE; ROUTES],
             replans: 0,
             passed_over: 0,
+            survey: None,
+            rates: [T::ZERO; 4],
         }
+    }
+
+    /// Back to the first tick: another start, the same target.
+    pub fn restart(&mut self) {
+        self.phase = Phase::Poses { pitch: 0, of: PITCHES };
+        self.replans = 0;
     }
 
     /// One tick of `dt` s at these joints (swing, boom, arm, bucket).
@@ -217,6 +234,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         self.start = *joints;
         (self.nearest, self.clearest, self.second_pose) = (None, None, false);
         self.passed_over = self.replans;
+        (self.survey, self.rates) = (None, [T::ZERO; 4]);
     }
 
     /// Clear by a little more than the step's own stop, so that it arrives.
@@ -269,10 +287,14 @@ impl<T: Real, const N: usize> Reach<T, N> {
     fn try_posture(&mut self, index: usize, mut best: [Option<Pose<T>>; POSTURES]) {
         let Some(goal) = self.goal() else { return self.end(Progress::Blocked) };
         let start = self.avoid.aim(&self.start);
-        let share = |n: usize, of: usize| 1.9 * (n as f64 / (of - 1) as f64) - 0.95;
+        let share = |n: usize, spacing: f64| T::from_i32(n as i32) * T::from_f64(spacing) - T::from_f64(0.95);
         let (kind, rest) = (index % POSTURES, index / POSTURES);
         let [boom, arm, bucket] = &self.avoid.travels;
-        let planar = [boom.at(share(rest % 5, 5)), arm.at(share(kind, POSTURES)), bucket.at(share(rest / 5, 3))];
+        let planar = [
+            boom.at(share(rest % 5, 1.9 / 4.0)),
+            arm.at(share(kind, 1.9 / (POSTURES - 1) as f64)),
+            bucket.at(share(rest / 5, 1.9 / 2.0)),
+        ];
         let keep = self.avoid.stop;
         let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, self.avoid.hull.thickest_m(), keep));
         let [b, a, k] = planar;
@@ -342,8 +364,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
 
     fn rehearse(&mut self, mut along: Along<T>, joints: [Rotor<T>; 4], steps: u32) {
         let dt = T::from_f64(REHEARSED_STEP_S);
+        let Some(survey) = self.survey.take() else {
+            self.survey = Some(self.avoid.survey(&joints, &self.obstacles));
+            return;
+        };
         let Some(aim) = along.route.aim(along.passed) else { return self.next_route() };
-        let step = self.avoid.step(&joints, &aim, &self.obstacles);
+        let step = self.avoid.choose(&survey, &aim);
         let last = along.route.is_last(along.passed);
         if along.stuck_after(&step, dt) || steps >= REHEARSED_STEPS {
             self.next_route();
@@ -364,8 +390,12 @@ impl<T: Real, const N: usize> Reach<T, N> {
     }
 
     fn follow(&mut self, mut along: Along<T>, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
+        let Some(survey) = self.survey.take() else {
+            self.survey = Some(self.avoid.survey(joints, &self.obstacles));
+            return Told { progress: Progress::Moving, rates: self.rates, clearance: None };
+        };
         let Some(aim) = along.route.aim(along.passed) else { return self.stuck() };
-        let step = self.avoid.step(joints, &aim, &self.obstacles);
+        let step = self.avoid.choose(&survey, &aim);
         let told = Told { progress: Progress::Moving, rates: step.rates, clearance: Some(step.clearance) };
         if along.route.is_last(along.passed) {
             if self.miss_square(joints) <= self.tolerance * self.tolerance {
@@ -375,9 +405,10 @@ impl<T: Real, const N: usize> Reach<T, N> {
         } else if step.to_go_s < T::from_f64(PASSED_S) {
             along.passed += 1;
         }
-        if along.stuck_after(&step, dt) {
+        if along.stuck_after(&step, dt + dt) {
             return self.stuck();
         }
+        self.rates = step.rates;
         self.phase = Phase::Follow { along };
         told
     }

@@ -24,21 +24,21 @@ pub(crate) const LONGEST_AVERAGE: usize = 512;
 const SHARES: [f64; 5] = [0.95, 0.8, 0.6, 0.35, 0.15];
 /// What rounding may take of a limit.
 const SLACK: f64 = 1e-4;
-/// No speed is above this, a tick: squares stay far below 2⁶⁴.
+/// No speed is above this, a tick: it fits 32 bits, and squares stay far below 2⁶⁴.
 const FASTEST: u64 = 1 << 30;
 
-/// The table of a path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The table of a path, 3 KiB: filled in place, never handed on by value.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SpeedTable {
-    /// Squares of the cap in each cell, of the least cap from there as far as an average reaches, and of the speed at
-    /// the cell's beginning from which braking is in time.
-    cap: [u64; CELLS],
-    ahead: [u64; CELLS],
-    entry: [u64; CELLS],
+    /// The cap in each cell, the least cap from there as far as an average reaches, and the speed at the cell's beginning from
+    /// which braking is in time, rounded down.
+    cap: [u32; CELLS],
+    ahead: [u32; CELLS],
+    entry: [u32; CELLS],
     /// The change of speed a tick.
     pub(crate) step: u64,
-    /// Ticks of the average.
-    pub(crate) average: usize,
+    /// Ticks of the average, less one: the table of no path is all zeros, and an image needs no flash for it.
+    last: usize,
 }
 
 /// What a choice of a and j leaves.
@@ -49,37 +49,54 @@ struct Choice<T> {
     average: usize,
 }
 
+fn square(speed: u32) -> u64 {
+    u64::from(speed) * u64::from(speed)
+}
+
 impl SpeedTable {
-    /// The quickest table of those tried; `None` where the path needs more than the tick resolves.
-    pub(crate) fn new<T: Real, const K: usize>(
+    /// Of no path: every speed is zero.
+    pub(crate) const STANDSTILL: Self =
+        Self { cap: [0; CELLS], ahead: [0; CELLS], entry: [0; CELLS], step: 0, last: 0 };
+
+    /// Fills in the quickest table of those tried; `None` where the path needs more than the tick resolves.
+    pub(crate) fn plan<T: Real, const K: usize>(
+        &mut self,
         path: &CylinderPath<T, K>,
         limits: &Limits<T>,
         tick_s: f64,
-    ) -> Option<Self> {
-        let mut best: Option<(T, Self)> = None;
+    ) -> Option<()> {
+        let mut best: Option<(T, [f64; 2])> = None;
         for of_acceleration in SHARES {
             for of_jerk in SHARES {
-                let choice = Choice::new(path, limits, tick_s, [of_acceleration, of_jerk])?;
-                if let Some(table) = Self::of(path, limits, tick_s, &choice) {
-                    let ticks = table.ticks::<T>();
+                let shares = [of_acceleration, of_jerk];
+                let choice = Choice::new(path, limits, tick_s, shares)?;
+                if self.fill(path, limits, tick_s, &choice) {
+                    let ticks = self.ticks::<T>();
                     if best.is_none_or(|(least, _)| ticks < least) {
-                        best = Some((ticks, table));
+                        best = Some((ticks, shares));
                     }
                 }
             }
         }
-        best.map(|(_, table)| table)
+        // Once more rather than a second table to keep the best in.
+        let (_, shares) = best?;
+        let choice = Choice::new(path, limits, tick_s, shares)?;
+        self.fill(path, limits, tick_s, &choice).then_some(())
     }
 
-    fn of<T: Real, const K: usize>(
+    /// Whether the choice leaves a speed everywhere.
+    #[inline(never)]
+    fn fill<T: Real, const K: usize>(
+        &mut self,
         path: &CylinderPath<T, K>,
         limits: &Limits<T>,
         tick_s: f64,
         choice: &Choice<T>,
-    ) -> Option<Self> {
-        let mut caps = [0; CELLS];
+    ) -> bool {
+        (self.step, self.last) = (choice.step, choice.average - 1);
+        // Until they are spread, the caps stand where `ahead` will.
         let mut fastest = 0;
-        for (slot, (from, to)) in caps.iter_mut().zip(cells::<T>()) {
+        for (slot, (from, to)) in self.ahead.iter_mut().zip(cells::<T>()) {
             let extremes = path.extremes(from, to);
             let mut rate = limits.rate(&extremes).unwrap_or(T::from_f64(1.0 / tick_s));
             for axis in 0..3 {
@@ -98,47 +115,57 @@ impl SpeedTable {
             fastest = core::cmp::max(fastest, *slot);
         }
         // A tick's step must fit under every cap with room to brake.
-        if caps.iter().any(|cap| *cap < 4 * choice.step) {
-            return None;
+        if self.ahead.iter().any(|cap| u64::from(*cap) < 4 * choice.step) {
+            return false;
         }
-        let reach = |speed: u64| (speed * (choice.average as u64 + 1)).div_ceil(1 << CELL_BITS) as usize;
-        let cap = spread(&caps, reach).map(|cap| cap * cap);
-        let ahead = least_ahead(&cap, reach(fastest));
-        let mut entry = [0; CELLS];
+        let reach =
+            |speed: u32| (u64::from(speed) * (choice.average as u64 + 1)).div_ceil(1 << CELL_BITS) as usize;
+        spread(&self.ahead, &mut self.cap, reach);
+        least_ahead(&self.cap, &mut self.ahead, reach(fastest));
+        let gained = self.gained();
         let mut after = 0;
-        for (slot, cap) in entry.iter_mut().zip(&cap).rev() {
-            let gained = (2 * choice.step).saturating_mul(1 << CELL_BITS);
-            after = core::cmp::min(*cap, gained.saturating_add(after));
+        for (slot, cap) in self.entry.iter_mut().zip(&self.cap).rev() {
+            after = core::cmp::min(square(*cap), gained.saturating_add(square(after))).isqrt() as u32;
             *slot = after;
         }
-        Some(Self { cap, ahead, entry, step: choice.step, average: choice.average })
+        true
+    }
+
+    /// Ticks of the average.
+    pub(crate) fn average(&self) -> usize {
+        self.last + 1
+    }
+
+    /// What the square of the speed gains over a cell.
+    fn gained(&self) -> u64 {
+        (2 * self.step).saturating_mul(1 << CELL_BITS)
     }
 
     /// The square of the speed at `place` from which braking is in time; 0 at the end and beyond.
     pub(crate) fn limit_square(&self, place: u64) -> u64 {
         let cell = (place >> CELL_BITS) as usize;
         let Some(&cap) = self.cap.get(cell) else { return 0 };
-        let after = self.entry.get(cell + 1).copied().unwrap_or(0);
+        let after = self.entry.get(cell + 1).map_or(0, |after| square(*after));
         let left = ((cell as u64 + 1) << CELL_BITS).saturating_sub(place);
-        core::cmp::min(cap, (2 * self.step).saturating_mul(left).saturating_add(after))
+        core::cmp::min(square(cap), (2 * self.step).saturating_mul(left).saturating_add(after))
     }
 
     /// The square of the least cap from `place` on, as far as an average reaches.
     pub(crate) fn cap_ahead_square(&self, place: u64) -> u64 {
-        self.ahead.get((place >> CELL_BITS) as usize).copied().unwrap_or(0)
+        self.ahead.get((place >> CELL_BITS) as usize).map_or(0, |cap| square(*cap))
     }
 
     /// About how many ticks the path takes.
     fn ticks<T: Real>(&self) -> T {
         let cell = T::from_f64((1_u64 << CELL_BITS) as f64);
-        let gained = (2 * self.step).saturating_mul(1 << CELL_BITS);
+        let gained = self.gained();
         let after = self.entry.iter().skip(1).chain(core::iter::once(&0));
-        let mut square = 0_u64;
+        let mut reached = 0_u64;
         let mut slow = T::ZERO;
-        let mut ticks = T::from_i32(self.average as i32);
-        for (cap, after) in self.entry.iter().zip(after) {
-            square = core::cmp::min(core::cmp::min(square.saturating_add(gained), *after), *cap);
-            let fast = T::from_f64(square as f64).sqrt();
+        let mut ticks = T::from_i32(self.last as i32 + 1);
+        for (entry, after) in self.entry.iter().zip(after) {
+            reached = core::cmp::min(reached.saturating_add(gained), core::cmp::min(square(*after), square(*entry)));
+            let fast = T::from_f64(reached as f64).sqrt();
             ticks = ticks + (cell + cell) / larger(slow + fast, T::ONE);
             slow = fast;
         }
@@ -171,7 +198,7 @@ impl<T: Real> Choice<T> {
         let longest = j * tick * T::from_i32(LONGEST_AVERAGE as i32 - 1);
         a = if a > longest { longest } else { a };
         let average = (a / (j * tick)).nearest_i32() as usize + 1;
-        let step = core::cmp::min(units::<T>(a * tick * tick), FASTEST);
+        let step = u64::from(units::<T>(a * tick * tick));
         if step == 0 {
             return None;
         }
@@ -186,9 +213,9 @@ fn cells<T: Real>() -> impl Iterator<Item = (T, T)> {
 }
 
 /// A speed per tick in whole units, rounded down, not above [`FASTEST`].
-fn units<T: Real>(share: T) -> u64 {
+fn units<T: Real>(share: T) -> u32 {
     // The cast saturates, and gives 0 for what is not a number.
-    core::cmp::min((share.to_f64() * WHOLE as f64) as u64, FASTEST)
+    core::cmp::min((share.to_f64() * WHOLE as f64) as u64, FASTEST) as u32
 }
 
 /// The largest rate not above `rate` with third·r³ + bent·r ≤ left: bisection, so that the answer is on the near side.
@@ -210,22 +237,19 @@ fn within_jerk<T: Real>(rate: T, third: T, bent: T, left: T) -> T {
 /// That is far enough. Say the mean place s lies in a cell of cap c, and the raw speed keeps to c up to c·T before and after it. If the
 /// window of T ended beyond that, the raw place took T or longer from s on, so all of the window lay beyond s, and so
 /// would its mean; and likewise before.
-fn spread(caps: &[u64; CELLS], reach: impl Fn(u64) -> usize) -> [u64; CELLS] {
-    let mut out = *caps;
+fn spread(caps: &[u32; CELLS], out: &mut [u32; CELLS], reach: impl Fn(u32) -> usize) {
+    *out = *caps;
     for (i, cap) in caps.iter().enumerate() {
         let reach = reach(*cap);
         for slot in out.iter_mut().skip(i.saturating_sub(reach)).take(core::cmp::min(i, reach) + 1 + reach) {
             *slot = core::cmp::min(*slot, *cap);
         }
     }
-    out
 }
 
 /// The least of each value and those after it, as far as `reach`.
-fn least_ahead(values: &[u64; CELLS], reach: usize) -> [u64; CELLS] {
-    let mut out = *values;
+fn least_ahead(values: &[u32; CELLS], out: &mut [u32; CELLS], reach: usize) {
     for (i, slot) in out.iter_mut().enumerate() {
-        *slot = values.iter().skip(i).take(reach + 1).fold(u64::MAX, |least, x| core::cmp::min(least, *x));
+        *slot = values.iter().skip(i).take(reach + 1).fold(u32::MAX, |least, x| core::cmp::min(least, *x));
     }
-    out
 }

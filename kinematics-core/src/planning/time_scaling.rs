@@ -76,7 +76,7 @@ impl<T: Real> Pace<T> {
     }
 }
 
-/// The scaling of one path: about 6 KiB that stay as they are, so that several [`Pace`]s may share them.
+/// The scaling of one path: about 3 KiB that stay where they are and as they are, so that several [`Pace`]s may share them.
 ///
 /// ```
 /// use kinematics_core::Cylinders;
@@ -93,7 +93,8 @@ impl<T: Real> Pace<T> {
 /// })?;
 /// let at = |boom| Cylinders { boom, arm: 1.0, bucket: 1.0 };
 /// let path = CylinderPath::new(&[at(1.0), at(1.5), at(2.0)], &limits).ok_or("no movement")?;
-/// let scaling = TimeScaling::new(&path, &limits, 0.001)?;
+/// let mut scaling = TimeScaling::standstill();
+/// scaling.plan(&path, &limits, 0.001)?;
 /// let mut pace = Pace::start();
 /// let mut ticks = 0;
 /// while !scaling.advance(&mut pace, 1.0).done {
@@ -105,7 +106,7 @@ impl<T: Real> Pace<T> {
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct TimeScaling<T> {
     table: SpeedTable,
     /// From sums over the ring to s, ṡ, s̈, s⃛.
@@ -114,22 +115,32 @@ pub struct TimeScaling<T> {
 }
 
 impl<T: Real> TimeScaling<T> {
-    /// Plans the speeds along the path, a control tick of `tick_s` seconds.
+    /// Of no path: it never gets anywhere.
+    pub const fn standstill() -> Self {
+        Self { table: SpeedTable::STANDSTILL, scale: [0.0; 4], number: PhantomData }
+    }
+
+    /// Plans the speeds along the path, a control tick of `tick_s` seconds, in place.
     ///
     /// # Errors
-    /// [`NoProfile`].
-    pub fn new<const K: usize>(path: &CylinderPath<T, K>, limits: &Limits<T>, tick_s: f64) -> Result<Self, NoProfile> {
-        let table = SpeedTable::new(path, limits, tick_s).ok_or(NoProfile)?;
-        let s = 1.0 / (WHOLE as f64 * table.average as f64);
+    /// [`NoProfile`]: then it is of no use.
+    pub fn plan<const K: usize>(
+        &mut self,
+        path: &CylinderPath<T, K>,
+        limits: &Limits<T>,
+        tick_s: f64,
+    ) -> Result<(), NoProfile> {
+        self.table.plan(path, limits, tick_s).ok_or(NoProfile)?;
+        let s = 1.0 / (WHOLE as f64 * self.table.average() as f64);
         let per_tick = 1.0 / tick_s;
-        let scale = [s, s * per_tick, s * per_tick * per_tick, s * per_tick * per_tick * per_tick];
-        Ok(Self { table, scale, number: PhantomData })
+        self.scale = [s, s * per_tick, s * per_tick * per_tick, s * per_tick * per_tick * per_tick];
+        Ok(())
     }
 
     /// One tick; `share` of the planned speed, 0 (come to rest) to 1, may change at any time: a pump that gives less, an
     /// operator who asks for less.
     pub fn advance(&self, pace: &mut Pace<T>, share: T) -> Progress<T> {
-        let average = self.table.average;
+        let average = self.table.average();
         let leaving = pace.speeds.get(pace.at).map_or(0, |speed| u64::from(*speed));
         let before = pace.speeds.get(if pace.at == 0 { average - 1 } else { pace.at - 1 });
         let last = before.map_or(0, |speed| u64::from(*speed));
@@ -174,7 +185,7 @@ impl<T: Real> TimeScaling<T> {
         // n ticks ago the speed changed from `dropped` to `leaving`.
         let (rose, fell) = (leaving > pace.dropped, leaving < pace.dropped);
         let up = last + table.step;
-        let place_then = pace.place + up * (table.average as u64 + 1);
+        let place_then = pace.place + up * (table.average() as u64 + 1);
         let could_stay = within(up, wanted(table.limit_square(place_then)))
             && within(up, wanted(table.cap_ahead_square(pace.place)));
         let speed = if !fell && could_stay {

@@ -168,7 +168,8 @@ fn planning(out: &mut Out, stopwatch: &Stopwatch, machine: &Machine<f32>) -> Opt
     let at =
         |share: f32| Cylinders { boom: 1.0 + 0.2 * share, arm: 1.2 + 0.3 * share * share, bucket: 1.2 - 0.3 * share };
     let path = CylinderPath::new(&core::array::from_fn::<_, KNOTS, _>(|i| at(i as f32 / 16.0)), &limits)?;
-    let scaling = TimeScaling::new(&path, &limits, 0.001).ok()?;
+    let mut scaling = TimeScaling::standstill();
+    scaling.plan(&path, &limits, 0.001).ok()?;
     let pace = RefCell::new(Pace::start());
     // Every twentieth tick from start to end.
     let run = |_: f32| {

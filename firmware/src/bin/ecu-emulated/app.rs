@@ -7,7 +7,7 @@ mod app {
     use crate::emulated::{fail, stack, succeed};
     use firmware::frame::{INPUT_BYTES, OUTPUT_BYTES};
     use firmware::link::{KIND_END, RECORD_BYTES, REPLY_BYTES};
-    use firmware::{Ecu, Inputs, Parameters};
+    use firmware::{Ecu, Followers, Inputs, Parameters};
     use stm32f4::stm32f405::TIM2;
 
     /// The emulator clocks TIM2 at 1 GHz, and starts over after as many counts as the register says (the chip: one more).
@@ -19,15 +19,15 @@ mod app {
     #[local]
     struct Local {
         link: Link,
-        ecu: Ecu,
+        ecu: Ecu<&'static mut Followers>,
         stopwatch: Stopwatch,
         timer: TIM2,
     }
 
-    #[init]
+    #[init(local = [followers: Followers = Followers::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let stopwatch = Stopwatch::start(cx.device.TIM5);
-        let Ok((link, ecu)) = connect() else { fail() };
+        let Ok((link, ecu)) = connect(cx.local.followers) else { fail() };
         let timer = cx.device.TIM2;
         timer.arr().write(|w| w.arr().set(PERIOD_COUNTS));
         timer.dier().write(|w| w.uie().enabled());
@@ -36,7 +36,7 @@ mod app {
     }
 
     /// Takes the parameter record and answers with the error's text, empty when the application was built.
-    fn connect() -> Result<(Link, Ecu), LinkLost> {
+    fn connect(followers: &'static mut Followers) -> Result<(Link, Ecu<&'static mut Followers>), LinkLost> {
         let mut link = Link::open()?;
         let mut length = [0; 4];
         link.read(&mut length)?;
@@ -45,7 +45,7 @@ mod app {
         link.read(record)?;
         let mut text = Text::default();
         let built = match postcard::from_bytes::<Parameters>(record) {
-            Ok(parameters) => Ecu::new(&parameters).map_err(|error| text.set(&error)),
+            Ok(parameters) => Ecu::with(&parameters, followers).map_err(|error| text.set(&error)),
             Err(error) => {
                 text.set(&error);
                 Err(())
@@ -73,7 +73,7 @@ mod app {
     }
 
     /// One exchange with the harness.
-    fn exchange(link: &mut Link, ecu: &mut Ecu, stopwatch: &Stopwatch, started_ns: u32) -> Result<(), LinkLost> {
+    fn exchange(link: &mut Link, ecu: &mut Ecu<&'static mut Followers>, stopwatch: &Stopwatch, started_ns: u32) -> Result<(), LinkLost> {
         let mut message = [0; 1 + INPUT_BYTES];
         link.read(&mut message)?;
         let [kind, inputs @ ..] = message;
