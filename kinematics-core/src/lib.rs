@@ -18,7 +18,8 @@
 //!    accelerate; [`forces`] and [`payload`] — how strong: cylinders ↔ joints ↔ tip, and what the bucket carries;
 //! 6. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
 //! 7. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them);
-//! 8. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]).
+//! 8. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]);
+//! 9. [`planning`] — the whole linkage's outline, its distance to obstacles, and a fence.
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
@@ -51,6 +52,7 @@ pub mod joint_range;
 pub mod machine;
 pub mod matrix;
 pub mod payload;
+pub mod planning;
 pub mod rates;
 mod real;
 pub mod redundancy;
