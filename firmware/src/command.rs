@@ -13,6 +13,8 @@ const TRUSTED: u8 = 3;
 pub struct Intent {
     /// The request; neutral when stale.
     pub request: Request,
+    /// The levers, ±32767 at full deflection; zero when stale.
+    pub levers: [i16; 4],
     /// The counter has moved within the timeout.
     pub fresh: bool,
 }
@@ -48,6 +50,10 @@ impl Command {
             self.age += 1;
         }
         let fresh = self.age < self.timeout_ticks;
-        Intent { request: if fresh { inputs.request } else { Request::Neutral }, fresh }
+        if fresh {
+            Intent { request: inputs.request, levers: inputs.levers, fresh }
+        } else {
+            Intent { request: Request::Neutral, levers: [0; 4], fresh }
+        }
     }
 }

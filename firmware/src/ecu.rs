@@ -5,7 +5,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 use crate::command::{Command, Intent};
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
-use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs};
+use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
@@ -39,15 +39,15 @@ impl Ecu {
         let machine = Machine::new(&p.geometry)?;
         let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, p.supply.full_scale_v, &machine)
             .ok_or(ParameterError::NoSwingCylinder)?;
-        let dig = Dig::new(&p.dig);
-        if let Some(violation) = first_violation(&machine, &dig) {
+        let dig = p.dig.as_ref().map(Dig::new);
+        if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));
         }
         Ok(Self {
             machine,
             sensing,
             command: Command::new(p.command_timeout_ticks),
-            motion: Motion::new(&p.motion, dig),
+            motion: Motion::new(&p.motion, &p.valves, dig),
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
             tick: 0,
@@ -66,7 +66,7 @@ impl Ecu {
         let gate = self.supervisor.judge(inputs, &watched);
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
-        let nothing = Wanted { speeds: NO_LENGTHS, reference: self.lengths, dig_tick: 0 };
+        let nothing = Wanted { speeds: Speeds::ZERO, reference: self.lengths, dig_tick: 0 };
         let wanted = match (gate, wanted) {
             (Gate::Open, Ok(wanted)) => wanted,
             _ => nothing,

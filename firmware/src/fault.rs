@@ -44,6 +44,8 @@ pub enum Fault {
     Geometry,
     /// The command counter stood still longer than the timeout.
     CommandStale,
+    /// Something was asked for that the parameters do not hold.
+    NotConfigured,
     /// A dig was asked for too far from its start.
     NotAtStart,
     /// A cylinder strayed too far from its reference.
@@ -54,7 +56,7 @@ pub enum Fault {
 
 impl Fault {
     /// Every fault, most urgent first.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::EmergencyStop,
         Self::Overrun,
         Self::Supply,
@@ -64,6 +66,7 @@ impl Fault {
         Self::Sensor(Cylinder::Bucket),
         Self::Geometry,
         Self::CommandStale,
+        Self::NotConfigured,
         Self::NotAtStart,
         Self::FollowingError,
         Self::Trajectory,
@@ -84,6 +87,7 @@ impl Fault {
             Self::NotAtStart => 10,
             Self::FollowingError => 11,
             Self::Trajectory => 12,
+            Self::NotConfigured => 13,
         }
     }
 
@@ -104,6 +108,7 @@ impl Fault {
             Self::Sensor(Cylinder::Bucket) => "bucket_sensor_out_of_range",
             Self::Geometry => "geometry_impossible",
             Self::CommandStale => "command_stale",
+            Self::NotConfigured => "not_configured",
             Self::NotAtStart => "not_at_start",
             Self::FollowingError => "following_error",
             Self::Trajectory => "trajectory_unreachable",

@@ -1,13 +1,13 @@
 //! [`Inputs`] and [`Outputs`] as bytes, little-endian, fixed size: for the link to the harness and for the output hash.
 
 use crate::fault::{Fault, State};
-use crate::io::{Inputs, Outputs, Request};
+use crate::io::{Inputs, Outputs, Request, Speeds};
 use kinematics_core::{Cylinders, Joints, PlaneTip, Pose, Rotor};
 
 /// Bytes of [`Inputs`].
-pub const INPUT_BYTES: usize = 13;
+pub const INPUT_BYTES: usize = 21;
 /// Bytes of [`Outputs`].
-pub const OUTPUT_BYTES: usize = 4 + 1 + 1 + 1 + 12 + 4 * (2 + 6 + 4 + 2) + 4 + 12 + 12 + 32 + 16;
+pub const OUTPUT_BYTES: usize = 4 + 1 + 1 + 1 + 12 + 4 * (2 + 6 + 4 + 2) + 4 + 12 + 16 + 32 + 16;
 
 /// Why bytes are not a frame: the field, and what it held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,9 +104,13 @@ impl Inputs {
         let request = match self.request {
             Request::Neutral => 0,
             Request::Dig => 1,
+            Request::Levers => 2,
         };
         let switches = u8::from(self.enable) | u8::from(self.emergency_stop) << 1 | u8::from(self.overrun) << 2;
         w.bytes([self.command_counter, request, switches]);
+        for lever in self.levers {
+            w.bytes(lever.to_le_bytes());
+        }
         bytes
     }
 
@@ -122,6 +126,7 @@ impl Inputs {
         let request = match r.byte() {
             0 => Request::Neutral,
             1 => Request::Dig,
+            2 => Request::Levers,
             value => return Err(FrameError { field: "request", value }),
         };
         let switches = r.byte();
@@ -133,6 +138,7 @@ impl Inputs {
             supply_code,
             command_counter,
             request,
+            levers: [(); 4].map(|()| i16::from_le_bytes(r.bytes())),
             enable: switches & 1 != 0,
             emergency_stop: switches & 2 != 0,
             overrun: switches & 4 != 0,
@@ -159,7 +165,9 @@ impl Outputs {
         w.rotor(pose.plane.pitch);
         w.bytes(self.dig_tick.to_le_bytes());
         w.cylinders(self.reference);
-        w.cylinders(self.speeds);
+        for speed in self.speeds.to_array() {
+            w.float(speed);
+        }
         for current in self.currents.into_iter().flatten() {
             w.float(current);
         }
@@ -201,7 +209,7 @@ impl Outputs {
             pose: Pose { swing, joints, plane, x, y },
             dig_tick: r.u32(),
             reference: r.cylinders(),
-            speeds: r.cylinders(),
+            speeds: Speeds::from_array([(); 4].map(|()| r.float())),
             currents: [(); 4].map(|()| [r.float(), r.float()]),
             duties: [(); 4].map(|()| [r.u16(), r.u16()]),
         })

@@ -14,6 +14,37 @@ pub enum Request {
     Neutral,
     /// Follow the dig trajectory.
     Dig,
+    /// Move each actuator as its lever says.
+    Levers,
+}
+
+/// Speeds of the four actuators: cylinders m/s, extending positive; a swing motor rad/s, counter-clockwise positive, a swing
+/// cylinder m/s as the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Speeds {
+    /// Swing motor or cylinder.
+    pub swing: f32,
+    /// Boom cylinder.
+    pub boom: f32,
+    /// Arm cylinder.
+    pub arm: f32,
+    /// Bucket cylinder.
+    pub bucket: f32,
+}
+
+impl Speeds {
+    /// Standstill.
+    pub const ZERO: Self = Self { swing: 0.0, boom: 0.0, arm: 0.0, bucket: 0.0 };
+
+    /// In the order of [`SPOOLS`].
+    pub const fn to_array(self) -> [f32; 4] {
+        [self.swing, self.boom, self.arm, self.bucket]
+    }
+
+    /// From the order of [`SPOOLS`].
+    pub const fn from_array([swing, boom, arm, bucket]: [f32; 4]) -> Self {
+        Self { swing, boom, arm, bucket }
+    }
 }
 
 /// Everything that enters a tick.
@@ -27,6 +58,8 @@ pub struct Inputs {
     pub command_counter: u8,
     /// What the operator asks for.
     pub request: Request,
+    /// The levers, read with [`Request::Levers`]: swing, boom, arm, bucket; ±32767 asks for full speed, extending positive.
+    pub levers: [i16; 4],
     /// The enable switch.
     pub enable: bool,
     /// The emergency stop is pressed.
@@ -59,8 +92,8 @@ pub struct Outputs {
     pub dig_tick: u32,
     /// Reference cylinder lengths of this tick, m; the measured ones when not digging.
     pub reference: Cylinders<f32>,
-    /// Cylinder speeds that passed the gate, m/s, extending positive.
-    pub speeds: Cylinders<f32>,
+    /// Actuator speeds that passed the gate.
+    pub speeds: Speeds,
     /// Coil currents, A, a spool each.
     pub currents: [Solenoids<f32>; 4],
     /// PWM duties, 65535 is always on, a spool each.

@@ -39,8 +39,8 @@ pub enum SwingSensor {
 pub struct ValveDirection {
     /// Fraction of the full-scale current below which nothing moves.
     pub dead_band: f32,
-    /// Cylinder speed at full scale, m/s.
-    pub full_speed_mps: f32,
+    /// Speed at full scale: m/s of a cylinder, rad/s of a swing motor.
+    pub full_speed: f32,
 }
 
 /// The solenoids, all alike.
@@ -87,8 +87,8 @@ pub struct Parameters {
     pub swing_sensor: SwingSensor,
     /// Boom, arm, bucket.
     pub cylinder_sensors: [PositionSensor; 3],
-    /// Boom, arm, bucket: \[extend, retract\].
-    pub valves: [[ValveDirection; 2]; 3],
+    /// Swing, boom, arm, bucket: \[extend, retract\]; of a swing motor \[counter-clockwise, clockwise\].
+    pub valves: [[ValveDirection; 2]; 4],
     /// Solenoids.
     pub coil: Coil,
     /// Supply.
@@ -97,8 +97,8 @@ pub struct Parameters {
     pub command_timeout_ticks: u16,
     /// Motion.
     pub motion: MotionParameters,
-    /// The dig.
-    pub dig: DigParameters,
+    /// The dig, where there is one.
+    pub dig: Option<DigParameters>,
 }
 
 /// What is wrong with a parameter record.
@@ -207,7 +207,7 @@ impl Parameters {
         }
         for direction in self.valves.iter().flatten() {
             within("valve.dead_band", direction.dead_band.into(), [0.0, 0.9])?;
-            within("valve.full_speed_mps", direction.full_speed_mps.into(), [0.001, 5.0])?;
+            within("valve.full_speed", direction.full_speed.into(), [0.001, 5.0])?;
         }
         within("coil.full_scale_a", self.coil.full_scale_a.into(), [0.05, 5.0])?;
         within("coil.resistance_ohm", self.coil.resistance_ohm.into(), [0.5, 100.0])?;
@@ -217,7 +217,7 @@ impl Parameters {
         ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
-        self.dig.validate()
+        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)
     }
 }
 

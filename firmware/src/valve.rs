@@ -1,8 +1,6 @@
-//! Last stage: cylinder speeds → coil currents → PWM duties, through each direction's dead band and gain.
+//! Last stage: actuator speeds → coil currents → PWM duties, through each direction's dead band and gain.
 
-use kinematics_core::Cylinders;
-
-use crate::io::{Solenoids, limited};
+use crate::io::{Solenoids, Speeds, limited};
 use crate::parameters::{Coil, ValveDirection};
 use crate::supervisor::Gate;
 
@@ -10,7 +8,7 @@ use crate::supervisor::Gate;
 #[derive(Clone, Copy, Debug)]
 struct Direction {
     dead_band_a: f32,
-    amperes_per_mps: f32,
+    amperes_per_speed: f32,
     full_scale_a: f32,
 }
 
@@ -19,14 +17,18 @@ impl Direction {
         let full_scale_a = coil.full_scale_a;
         Self {
             dead_band_a: valve.dead_band * full_scale_a,
-            amperes_per_mps: (1.0 - valve.dead_band) * full_scale_a / valve.full_speed_mps,
+            amperes_per_speed: (1.0 - valve.dead_band) * full_scale_a / valve.full_speed,
             full_scale_a,
         }
     }
 
     /// Current for a speed in this direction, A; no speed, no current.
     fn current(&self, speed: f32) -> f32 {
-        if speed > 0.0 { limited(self.dead_band_a + self.amperes_per_mps * speed, 0.0, self.full_scale_a) } else { 0.0 }
+        if speed > 0.0 {
+            limited(self.dead_band_a + self.amperes_per_speed * speed, 0.0, self.full_scale_a)
+        } else {
+            0.0
+        }
     }
 }
 
@@ -47,26 +49,26 @@ impl Coils {
 /// The valve stage.
 #[derive(Clone, Copy, Debug)]
 pub struct Valve {
-    /// Boom, arm, bucket: \[extend, retract\]. The swing spool has no motion yet and stays off.
-    spools: [[Direction; 2]; 3],
+    /// Swing, boom, arm, bucket: \[extend, retract\].
+    spools: [[Direction; 2]; 4],
     resistance_ohm: f32,
 }
 
 impl Valve {
-    pub(crate) fn new(spools: &[[ValveDirection; 2]; 3], coil: &Coil) -> Self {
+    pub(crate) fn new(spools: &[[ValveDirection; 2]; 4], coil: &Coil) -> Self {
         let directions = spools.map(|spool| spool.map(|direction| Direction::new(&direction, coil)));
         Self { spools: directions, resistance_ohm: coil.resistance_ohm }
     }
 
-    /// Coil currents and duties for the speeds [m/s] behind the gate, at this supply voltage.
-    pub fn drive(&self, gate: Gate, speeds: &Cylinders<f32>, supply_v: f32) -> Coils {
+    /// Coil currents and duties for the speeds behind the gate, at this supply voltage.
+    pub fn drive(&self, gate: Gate, speeds: &Speeds, supply_v: f32) -> Coils {
         let mut coils = Coils::OFF;
         if gate == Gate::Closed {
             return coils;
         }
         let duty_per_ampere = self.resistance_ohm / supply_v * 65535.0;
-        let driven = coils.currents.iter_mut().zip(&mut coils.duties).skip(1);
-        let wanted = self.spools.iter().zip([speeds.boom, speeds.arm, speeds.bucket]);
+        let driven = coils.currents.iter_mut().zip(&mut coils.duties);
+        let wanted = self.spools.iter().zip(speeds.to_array());
         for ((currents, duties), ([extend, retract], speed)) in driven.zip(wanted) {
             // One of the two is zero: both solenoids of a spool are never on together.
             *currents = [extend.current(speed), retract.current(-speed)];

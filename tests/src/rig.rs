@@ -50,12 +50,17 @@ impl Rig {
         Self::with(&scenario.parameters)
     }
 
-    /// The same with other parameters.
+    /// The same with other parameters that hold a dig.
     pub fn with(parameters: &Parameters) -> Self {
-        let ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
         let machine = Machine::<f64>::new(&parameters.geometry).expect("a valid geometry");
-        let dig = firmware::dig::Dig::<f64>::new(&parameters.dig);
-        let start = machine.tip_to_cylinders(&dig.tip(0.0)).expect("a start within reach");
+        let dig = firmware::dig::Dig::<f64>::new(parameters.dig.as_ref().expect("a dig"));
+        let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&dig.tip(0.0)).expect("a start within reach");
+        Self::standing(parameters, &[boom, arm, bucket])
+    }
+
+    /// Anywhere: lengths of boom, arm and bucket cylinder, m.
+    pub fn standing(parameters: &Parameters, &[boom, arm, bucket]: &[f64; 3]) -> Self {
+        let ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
         let mut rig = Self {
             ecu,
             inputs: Inputs {
@@ -63,13 +68,14 @@ impl Rig {
                 supply_code: 39321,
                 command_counter: 0,
                 request: Request::Neutral,
+                levers: [0; 4],
                 enable: false,
                 emergency_stop: false,
                 overrun: false,
             },
             sending: true,
         };
-        rig.stand_at(parameters, &start);
+        rig.stand_at(parameters, &Cylinders { boom, arm, bucket });
         rig
     }
 

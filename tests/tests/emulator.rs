@@ -106,7 +106,7 @@ fn the_image_refuses_parameters_with_the_same_words_as_the_host() {
     let spoilt: [fn(&mut Parameters); 3] = [
         |p| p.motion.gain_per_s = 99.0,
         |p| p.geometry.bucket.rocker_m = f64::NAN,
-        |p| p.dig = scenario("dig-published").dig,
+        |p| p.dig = scenario("dig-published").parameters.dig,
     ];
     for spoil in spoilt {
         let mut parameters = scenario("dig").parameters;

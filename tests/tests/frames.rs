@@ -62,7 +62,7 @@ fn a_byte_that_names_nothing_is_refused_by_field() {
 
 proptest! {
     #[test]
-    fn any_input_bytes_are_refused_or_come_back_the_same(bytes in prop::array::uniform13(any::<u8>())) {
+    fn any_input_bytes_are_refused_or_come_back_the_same(bytes in prop::array::uniform21(any::<u8>())) {
         prop_assert_eq!(bytes.len(), INPUT_BYTES);
         if let Ok(inputs) = Inputs::from_bytes(&bytes) {
             prop_assert_eq!(inputs.to_bytes(), bytes);

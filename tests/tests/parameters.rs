@@ -1,9 +1,14 @@
 //! The parameter record: every value out of its range is refused by name, and the record survives its own bytes.
 
 use cross_tests::rig::scenario;
+use firmware::dig::DigParameters;
 use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
+
+fn dig(p: &mut Parameters) -> &mut DigParameters {
+    p.dig.as_mut().expect("a dig")
+}
 
 const SPOILT: [(&str, Spoil); 36] = [
     ("links.boom_m", |p| p.geometry.boom_m = -1.0),
@@ -19,7 +24,7 @@ const SPOILT: [(&str, Spoil); 36] = [
     ("sensor.max_code", |p| p.cylinder_sensors[2].max_code = 0),
     ("valve.dead_band", |p| p.valves[0][0].dead_band = 0.95),
     ("valve.dead_band", |p| p.valves[2][1].dead_band = f32::NAN),
-    ("valve.full_speed_mps", |p| p.valves[1][0].full_speed_mps = 0.0),
+    ("valve.full_speed", |p| p.valves[1][0].full_speed = 0.0),
     ("coil.full_scale_a", |p| p.coil.full_scale_a = 0.0),
     ("coil.resistance_ohm", |p| p.coil.resistance_ohm = -1.0),
     ("supply.full_scale_v", |p| p.supply.full_scale_v = f32::INFINITY),
@@ -32,16 +37,16 @@ const SPOILT: [(&str, Spoil); 36] = [
     ("motion.smallest_speed_mps", |p| p.motion.smallest_speed_mps = f32::NAN),
     ("motion.start_tolerance_m", |p| p.motion.start_tolerance_m = 0.0),
     ("motion.following_error_m", |p| p.motion.following_error_m = 1.0),
-    ("dig.start_x_m", |p| p.dig.start_x_m = f64::NAN),
-    ("dig.start_z_m", |p| p.dig.start_z_m = 1e9),
-    ("dig.ground_z_m", |p| p.dig.ground_z_m = f64::INFINITY),
-    ("dig.reach_m", |p| p.dig.reach_m = 0.0),
-    ("dig.plunge_m", |p| p.dig.plunge_m = -1.0),
-    ("dig.scoop_radius_m", |p| p.dig.scoop_radius_m = 0.0),
-    ("dig.scoop_end_deg", |p| p.dig.scoop_end_deg = 500.0),
-    ("dig.pitch_deg", |p| p.dig.pitch_deg[2] = f64::NAN),
-    ("dig.until_s", |p| p.dig.until_s = [4.0, 3.0, 20.0]),
-    ("dig.hold_lead_s", |p| p.dig.hold_lead_s = 5.0),
+    ("dig.start_x_m", |p| dig(p).start_x_m = f64::NAN),
+    ("dig.start_z_m", |p| dig(p).start_z_m = 1e9),
+    ("dig.ground_z_m", |p| dig(p).ground_z_m = f64::INFINITY),
+    ("dig.reach_m", |p| dig(p).reach_m = 0.0),
+    ("dig.plunge_m", |p| dig(p).plunge_m = -1.0),
+    ("dig.scoop_radius_m", |p| dig(p).scoop_radius_m = 0.0),
+    ("dig.scoop_end_deg", |p| dig(p).scoop_end_deg = 500.0),
+    ("dig.pitch_deg", |p| dig(p).pitch_deg[2] = f64::NAN),
+    ("dig.until_s", |p| dig(p).until_s = [4.0, 3.0, 20.0]),
+    ("dig.hold_lead_s", |p| dig(p).hold_lead_s = 5.0),
 ];
 
 #[test]

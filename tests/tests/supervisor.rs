@@ -240,19 +240,14 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
         [code(), code(), code(), code()],
         prop_oneof![8 => Just(39_321_u16), 1 => any::<u16>()],
         any::<u8>(),
-        prop_oneof![Just(Request::Neutral), Just(Request::Dig)],
+        prop_oneof![Just(Request::Neutral), Just(Request::Dig), Just(Request::Levers)],
+        any::<[i16; 4]>(),
         any::<bool>(),
         prop::bool::weighted(0.02),
         prop::bool::weighted(0.02),
     )
-        .prop_map(|(codes, supply_code, command_counter, request, enable, emergency_stop, overrun)| Inputs {
-            codes,
-            supply_code,
-            command_counter,
-            request,
-            enable,
-            emergency_stop,
-            overrun,
+        .prop_map(|(codes, supply_code, command_counter, request, levers, enable, emergency_stop, overrun)| {
+            Inputs { codes, supply_code, command_counter, request, levers, enable, emergency_stop, overrun }
         })
 }
 
@@ -285,7 +280,7 @@ proptest! {
             let all = [pose.x, pose.y, pose.plane.reach, pose.plane.height, pose.swing.cos, pose.swing.sin,
                 pose.plane.pitch.cos, pose.plane.pitch.sin, pose.joints.boom.cos, pose.joints.arm.cos,
                 pose.joints.bucket.cos, outputs.lengths.boom, outputs.lengths.arm, outputs.lengths.bucket,
-                outputs.reference.boom, outputs.speeds.boom, outputs.speeds.arm, outputs.speeds.bucket];
+                outputs.reference.boom, outputs.speeds.swing, outputs.speeds.boom, outputs.speeds.arm, outputs.speeds.bucket];
             prop_assert!(all.iter().all(|x| x.is_finite()));
         }
     }

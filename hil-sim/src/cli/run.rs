@@ -93,7 +93,11 @@ fn scenario(args: &RunArgs) -> Result<Outcome, Failure> {
     let on = if args.on == On::Host { "host" } else { "emulator" };
     let folder = args.report.clone().unwrap_or_else(|| Path::new("report").join(&scenario.name));
     if args.draw_only {
-        let found = report::draw_only(&scenario, &folder).map_err(unwritable(&folder))?;
+        let dig = scenario.parameters.dig.as_ref().ok_or_else(|| Failure {
+            status: 2,
+            error: format!("--draw-only draws a dig, and `{}` has none", scenario.name).into(),
+        })?;
+        let found = report::draw_only(&scenario, dig, &folder).map_err(unwritable(&folder))?;
         let summary = Summary::without_run(&scenario, on, args.seed, found);
         finish(args, &summary, &folder)?;
         return Ok(Outcome::Done);

@@ -42,6 +42,7 @@ fn columns() -> Vec<(String, Value)> {
     add("state", Box::new(|row, _| Cell::Word(state(row))));
     add("fault", Box::new(|row, _| row.outputs.fault.map_or(Cell::Empty, |fault| Cell::Word(fault.name()))));
     add("dig_tick", Box::new(|row, _| Cell::Whole(row.outputs.dig_tick.into())));
+    add("swing_true_deg", Box::new(|row, _| row.swing.map(|swing| swing.angle().to_degrees()).into()));
     for (i, name) in CYLINDERS.into_iter().enumerate() {
         add(&format!("{name}_true_m"), Box::new(move |row, _| Cell::Double(lengths(&row.lengths)[i])));
     }
@@ -62,8 +63,9 @@ fn columns() -> Vec<(String, Value)> {
     add("pose_valid", Box::new(|row, _| Cell::Whole(row.outputs.pose_valid.into())));
     add("tip_x_estimate_m", Box::new(|row, _| Cell::Single(row.outputs.pose.plane.reach)));
     add("tip_z_estimate_m", Box::new(|row, _| Cell::Single(row.outputs.pose.plane.height)));
-    for (i, name) in CYLINDERS.into_iter().enumerate() {
-        add(&format!("{name}_speed_mps"), Box::new(move |row, _| Cell::Single(lengths(&row.outputs.speeds)[i])));
+    // A swing motor's is in rad/s.
+    for (i, name) in ["swing_speed", "boom_speed_mps", "arm_speed_mps", "bucket_speed_mps"].into_iter().enumerate() {
+        add(name, Box::new(move |row, _| Cell::Single(row.outputs.speeds.to_array()[i])));
     }
     for (spool, name) in SPOOLS.into_iter().enumerate() {
         for (side, direction) in ["extend", "retract"].into_iter().enumerate() {

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use firmware::TICKS_PER_S;
-use firmware::dig::Dig;
+use firmware::dig::{Dig, DigParameters};
 use kinematics_core::{Joints, Machine};
 
 use super::csv::{Moment, lengths, write_dig};
@@ -22,12 +22,12 @@ use crate::travel::{Violation, violations};
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn draw_only(scenario: &Scenario, folder: &Path) -> io::Result<Vec<Violation>> {
+pub fn draw_only(scenario: &Scenario, dig: &DigParameters, folder: &Path) -> io::Result<Vec<Violation>> {
     fs::create_dir_all(folder)?;
     let geometry = &scenario.machine.geometry;
     // Loading the scenario has checked the geometry.
     let machine = Machine::new(geometry).map_err(io::Error::other)?;
-    let dig = Dig::new(&scenario.dig);
+    let dig = Dig::new(dig);
     let found = violations(geometry, &machine, &dig);
     let (moments, joints): (Vec<_>, Vec<_>) = moments(&machine, &dig).unzip();
     write_dig(&moments, &folder.join("dig.csv"))?;
@@ -110,7 +110,7 @@ fn linkage_figure(
 }
 
 fn lengths_figure(scenario: &Scenario, moments: &[Moment], until_s: f64, found: &[Violation]) -> Figure {
-    let strokes = scenario.plant.map(|model| model.stroke);
+    let strokes = scenario.parameters.cylinder_sensors.map(|sensor| sensor.stroke);
     let names = ["boom", "arm", "bucket"].into_iter().zip(strokes).enumerate();
     let traces: Vec<_> = names
         .map(|(i, (cylinder, stroke))| figures::lengths::Trace {

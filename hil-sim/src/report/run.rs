@@ -55,7 +55,7 @@ fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static st
 }
 
 fn linkage_figure(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> Figure {
-    let dig = Dig::new(&scenario.dig);
+    let dig = scenario.parameters.dig.as_ref().map(Dig::new);
     // Standing still before and after the dig adds nothing to a path.
     let digging = log.rows.iter().filter(|row| row.outputs.dig_tick > 0).map(|row| row.joints);
     let mut joints: Vec<_> = digging.collect();
@@ -65,12 +65,12 @@ fn linkage_figure(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> Fig
     linkage::figure(&Motion {
         machine,
         ground_z_m: -scenario.machine.boom_pin_height_m,
-        reference: reference(&dig),
+        reference: dig.as_ref().map_or_else(Vec::new, reference),
         joints,
         outside: Vec::new(),
         caption: "Paths of elbow, wrist and bucket tip of the simulated machine in the boom's vertical plane while \
-                  digging, the linkage at even steps of time (first and last in black), and the path the tip should \
-                  take. Both axes have the same scale."
+                  digging, or all of the run where there is no dig, the linkage at even steps of time (first and last in \
+                  black), and the path the tip of a dig should take. Both axes have the same scale."
             .to_owned(),
     })
 }
@@ -83,7 +83,7 @@ pub(super) fn reference(dig: &Dig<f64>) -> Vec<Option<Point>> {
 }
 
 fn lengths_figure(scenario: &Scenario, log: &Log) -> Figure {
-    let strokes = scenario.plant.map(|model| model.stroke);
+    let strokes = scenario.parameters.cylinder_sensors.map(|sensor| sensor.stroke);
     let names = ["boom", "arm", "bucket"].into_iter().zip(strokes).enumerate();
     let traces: Vec<_> = names
         .map(|(i, (cylinder, stroke))| figures::lengths::Trace {
@@ -123,8 +123,8 @@ fn facts<'a>(scenario: &Scenario, summary: &Summary) -> Vec<(&'a str, String)> {
         ("The controller ran on", place),
         ("Seed of the sensor noise", summary.seed.to_string()),
         ("Simulated", format!("{} s, {} ticks", scenario.duration_s, summary.ticks)),
-        ("Dig completed", yes_no(summary.dig_completed)),
     ];
+    facts.extend(summary.dig_completed.map(|completed| ("Dig completed", yes_no(completed))));
     facts.extend(summary.tip_error_rms_m.map(|m| ("Tip error while digging, RMS", millimetres(m))));
     facts.extend(summary.tip_error_max_m.map(|m| ("Tip error while digging, largest", millimetres(m))));
     facts.extend(summary.real_time_factor.map(|f| ("Speed of the simulation", format!("{f:.0} × real time"))));

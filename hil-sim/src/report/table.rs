@@ -15,7 +15,9 @@ pub fn table(summary: &Summary, folder: &Path) -> String {
     row("ticks", summary.ticks.to_string());
     if let Some(hash) = &summary.output_hash {
         row("output hash", hash.clone());
-        row("dig completed", if summary.dig_completed { "yes" } else { "no" }.to_owned());
+    }
+    if let Some(completed) = summary.dig_completed {
+        row("dig completed", if completed { "yes" } else { "no" }.to_owned());
     }
     if let (Some(rms), Some(max)) = (summary.tip_error_rms_m, summary.tip_error_max_m) {
         row("tip error", format!("{:.1} mm RMS, {:.1} mm max", rms * 1e3, max * 1e3));

@@ -29,6 +29,11 @@ fn report(scenario: &Scenario, log: &Log, folder: &Path) -> String {
     fs::read_to_string(folder.join("report.html")).expect("a page")
 }
 
+/// The dig drawn only, and what it violates.
+fn drawn(scenario: &Scenario, folder: &Path) -> std::io::Result<Vec<crate::travel::Violation>> {
+    draw_only(scenario, scenario.parameters.dig.as_ref().expect("a dig"), folder)
+}
+
 /// Every figure of a page, each with its heading.
 fn figures(page: &str) -> Vec<(&str, &str)> {
     let headings = page.split("<h2>").skip(1);
@@ -156,7 +161,7 @@ fn the_log_has_a_row_a_tick_and_a_reference_of_the_tip_only_while_digging() {
 fn the_published_dig_is_drawn_with_both_violations_of_its_arm() {
     let scenario = scenario("dig-published.toml", &[], "");
     let folder = tempfile::tempdir().expect("a folder");
-    let found = draw_only(&scenario, folder.path()).expect("drawn");
+    let found = drawn(&scenario, folder.path()).expect("drawn");
     let said: Vec<_> = found.iter().map(ToString::to_string).collect();
     assert_eq!(
         said,
@@ -178,7 +183,7 @@ fn the_published_dig_is_drawn_with_both_violations_of_its_arm() {
 fn a_dig_out_of_reach_is_drawn_with_a_gap() {
     let scenario = scenario("dig-published.toml", &[("reach_m = 2.286", "reach_m = 2.9")], "");
     let folder = tempfile::tempdir().expect("a folder");
-    let found = draw_only(&scenario, folder.path()).expect("drawn");
+    let found = drawn(&scenario, folder.path()).expect("drawn");
     let reach = found.iter().find(|v| v.cylinder == "reach").expect("a violation of the reach");
     let page = fs::read_to_string(folder.path().join("report.html")).expect("a page");
     let figures = figures(&page);
@@ -194,7 +199,7 @@ fn a_dig_out_of_reach_is_drawn_with_a_gap() {
 fn a_dig_out_of_reach_from_beginning_to_end_is_drawn_all_the_same() {
     let changes = [("start_x_m = 0.762", "start_x_m = 9.0"), ("reach_m = 2.286", "reach_m = 20.0")];
     let folder = tempfile::tempdir().expect("a folder");
-    let found = draw_only(&scenario("dig-published.toml", &changes, ""), folder.path()).expect("drawn");
+    let found = drawn(&scenario("dig-published.toml", &changes, ""), folder.path()).expect("drawn");
     assert_eq!((found.len(), found[0].cylinder), (1, "reach"));
     let page = fs::read_to_string(folder.path().join("report.html")).expect("a page");
     assert_eq!(figures(&page).len(), 2);

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use firmware::{Fault, Outputs};
-use kinematics_core::{Cylinders, Joints};
+use kinematics_core::{Cylinders, Joints, Rotor};
 
 use crate::place::Timing;
 
@@ -14,7 +14,9 @@ pub struct Row {
     pub time_s: f64,
     /// The plant's true lengths, m.
     pub lengths: Cylinders<f64>,
-    /// The plant's true tip: reach and height in the base frame, m.
+    /// The plant's true swing θ1.
+    pub swing: Option<Rotor<f64>>,
+    /// The plant's true tip: reach and height in the boom's plane, m.
     pub tip: Option<[f64; 2]>,
     /// The plant's true joints.
     pub joints: Option<Joints<f64>>,

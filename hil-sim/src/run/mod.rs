@@ -9,12 +9,12 @@ use std::time::Instant;
 use crc::{CRC_64_XZ, Crc};
 use firmware::dig::Dig;
 use firmware::{Outputs, TICKS_PER_S};
-use kinematics_core::{Cylinders, Machine, Pose, Rotor};
+use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::place::{Place, PlaceError};
-use crate::plant::Plant;
 use crate::plant::sensors::{Noise, code};
-use crate::scenario::Scenario;
+use crate::plant::{Plant, SwingDrive};
+use crate::scenario::{Scenario, Task};
 use crate::travel::{Violation, violations};
 
 pub use log::{FaultSeen, Log, Row, StopHit};
@@ -25,11 +25,11 @@ pub use summary::{EmulatorFigures, InstructionCounts, Outcome, Summary};
 pub struct Run<'a> {
     scenario: &'a Scenario,
     machine: Machine<f64>,
-    dig: Dig<f64>,
+    dig: Option<Dig<f64>>,
+    swing: SwingDrive,
     plant: Plant,
     operator: Operator,
     noise: Noise,
-    swing_code: u16,
 }
 
 /// Why a run cannot start or go on.
@@ -38,40 +38,43 @@ pub enum RunError {
     /// The dig leaves the travel limits or what the machine reaches; nothing has moved.
     #[error("the dig is refused: it leaves the travel limits")]
     Refused(Vec<Violation>),
+    /// The operator asks for a dig that the parameters do not hold.
+    #[error("`parameters.dig`: the operator asks for a dig, but there is none")]
+    NoDig,
     /// The place is lost or cannot be built.
     #[error(transparent)]
     Place(#[from] PlaceError),
     /// The machine's geometry, which loading has checked.
     #[error(transparent)]
     Geometry(#[from] kinematics_core::GeometryError),
-    /// The swing sensor cannot stand at zero swing.
-    #[error("`machine`: at zero swing: {0}")]
+    /// The swing cannot stand where the scenario starts.
+    #[error("`start.swing_deg`: {0}")]
     Swing(kinematics_core::PoseError<f64>),
 }
 
 impl<'a> Run<'a> {
-    /// Prepares a run: checks the dig's travel and puts the machine at the dig's start.
+    /// Prepares a run: checks the dig's travel, where there is one, and puts the machine at its start.
     ///
     /// # Errors
     /// [`RunError::Refused`] with every violation.
     pub fn new(scenario: &'a Scenario, seed: u64) -> Result<Self, RunError> {
         let geometry = &scenario.machine.geometry;
         let machine = Machine::new(geometry)?;
-        let dig = Dig::new(&scenario.dig);
-        let found = violations(geometry, &machine, &dig);
+        let dig = scenario.parameters.dig.as_ref().map(Dig::new);
+        let found = dig.as_ref().map_or_else(Vec::new, |dig| violations(geometry, &machine, dig));
         if !found.is_empty() {
             return Err(RunError::Refused(found));
         }
-        let start = machine.tip_to_cylinders(&dig.tip(0.0)).map_err(RunError::Swing)?;
-        let swing_code = swing_code(scenario, &machine)?;
+        let swing = SwingDrive::of(&machine);
+        let start = start(scenario, &machine, dig.as_ref(), swing)?;
         Ok(Self {
             scenario,
             machine,
             dig,
-            plant: Plant::new(scenario.plant, scenario.coil, &start),
+            swing,
+            plant: Plant::new(scenario.plant, scenario.coil, start),
             operator: Operator::new(scenario),
             noise: Noise::new(seed),
-            swing_code,
         })
     }
 
@@ -87,8 +90,8 @@ impl<'a> Run<'a> {
         let started = Instant::now();
         for tick in 0..ticks {
             let time_s = f64::from(tick) / f64::from(TICKS_PER_S);
-            let true_lengths = self.plant.lengths();
-            let codes = self.codes(&true_lengths);
+            let positions = self.plant.positions();
+            let codes = self.codes(positions);
             let inputs = self.operator.inputs(time_s, codes);
 
             let reply = place.tick(&inputs)?;
@@ -96,7 +99,7 @@ impl<'a> Run<'a> {
 
             let held: Vec<_> = self.plant.against_stops().collect();
             log.stops(time_s, &held);
-            log.push(self.row(time_s, true_lengths, &reply.outputs), reply.timing);
+            log.push(self.row(time_s, positions, &reply.outputs), reply.timing);
             self.plant.step(&reply.outputs, self.scenario.supply_v);
             progress(tick + 1, ticks);
         }
@@ -104,35 +107,46 @@ impl<'a> Run<'a> {
         Ok(log)
     }
 
-    fn codes(&mut self, lengths: &Cylinders<f64>) -> [u16; 4] {
-        let sensors = &self.scenario.parameters.cylinder_sensors;
+    fn codes(&mut self, [swing, boom, arm, bucket]: [f64; 4]) -> [u16; 4] {
+        let parameters = &self.scenario.parameters;
         let sigma = self.scenario.sensor_noise_m;
-        let mut read = |i: usize, length: f64| code(&sensors[i], length, sigma * self.noise.normal());
-        [self.swing_code, read(0, lengths.boom), read(1, lengths.arm), read(2, lengths.bucket)]
+        let mut error = || sigma * self.noise.normal();
+        let swing = self.swing.code(&parameters.swing_sensor, swing, error());
+        let [of_boom, of_arm, of_bucket] = &parameters.cylinder_sensors;
+        [swing, code(of_boom, boom, error()), code(of_arm, arm, error()), code(of_bucket, bucket, error())]
     }
 
-    fn row(&self, time_s: f64, lengths: Cylinders<f64>, outputs: &Outputs) -> Row {
+    fn row(&self, time_s: f64, [swing, boom, arm, bucket]: [f64; 4], outputs: &Outputs) -> Row {
+        let lengths = Cylinders { boom, arm, bucket };
         // The plant stays between its stops, where the linkage closes.
-        let pose = self.machine.cylinders_to_tip(&lengths, Rotor::IDENTITY).ok();
+        let swing = self.swing.rotor(swing);
+        let pose = swing.and_then(|swing| self.machine.cylinders_to_tip(&lengths, swing).ok());
         let tip = |pose: Pose<f64>| [pose.plane.reach, pose.plane.height];
         // While the feed-forward waits out the dead time, tick 1 stands still: nothing is followed yet.
-        let reference = (outputs.dig_tick > 1).then(|| {
-            let tip = self.dig.tip(f64::from(outputs.dig_tick - 1) / f64::from(TICKS_PER_S));
+        let reference = self.dig.as_ref().filter(|_| outputs.dig_tick > 1).map(|dig| {
+            let tip = dig.tip(f64::from(outputs.dig_tick - 1) / f64::from(TICKS_PER_S));
             [tip.reach, tip.height]
         });
-        Row { time_s, lengths, tip: pose.map(tip), joints: pose.map(|p| p.joints), reference, outputs: *outputs }
+        Row { time_s, lengths, swing, tip: pose.map(tip), joints: pose.map(|p| p.joints), reference, outputs: *outputs }
     }
 }
 
-/// The swing sensor's code at zero swing.
-fn swing_code(scenario: &Scenario, machine: &Machine<f64>) -> Result<u16, RunError> {
-    use firmware::parameters::SwingSensor;
-    match (&scenario.parameters.swing_sensor, machine.swing_cylinder()) {
-        (SwingSensor::Angle { zero_code }, _) => Ok(*zero_code),
-        (SwingSensor::Cylinder(sensor), Some(cylinder)) => {
-            let length = cylinder.length(Rotor::IDENTITY).map_err(RunError::Swing)?;
-            Ok(code(sensor, length, 0.0))
+/// Positions of swing, boom, arm, bucket before the first tick.
+fn start(
+    scenario: &Scenario,
+    machine: &Machine<f64>,
+    dig: Option<&Dig<f64>>,
+    swing: SwingDrive,
+) -> Result<[f64; 4], RunError> {
+    match (&scenario.task, dig) {
+        (Task::Levers { start, .. }, _) => {
+            let swing = swing.position(start.swing_deg.to_radians()).map_err(RunError::Swing)?;
+            Ok([swing, start.boom_m, start.arm_m, start.bucket_m])
         }
-        (SwingSensor::Cylinder(sensor), None) => Ok(sensor.min_code),
+        (Task::Dig, dig) => {
+            let dig = dig.ok_or(RunError::NoDig)?;
+            let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&dig.tip(0.0)).map_err(RunError::Swing)?;
+            Ok([swing.position(0.0).map_err(RunError::Swing)?, boom, arm, bucket])
+        }
     }
 }

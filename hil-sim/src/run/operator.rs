@@ -2,7 +2,7 @@
 
 use firmware::{Inputs, Request};
 
-use crate::scenario::{Events, Scenario};
+use crate::scenario::{Events, Scenario, Task};
 
 /// A new command message every this many ticks.
 const MESSAGE_TICKS: u32 = 10;
@@ -11,7 +11,8 @@ const MESSAGE_TICKS: u32 = 10;
 #[derive(Clone, Debug)]
 pub struct Operator {
     enable_s: f64,
-    dig_s: f64,
+    begin_s: f64,
+    task: Task,
     supply_code: u16,
     events: Events,
     tick: u32,
@@ -24,7 +25,8 @@ impl Operator {
         let full_scale_v = f64::from(scenario.parameters.supply.full_scale_v);
         Self {
             enable_s: scenario.enable_s,
-            dig_s: scenario.dig_s,
+            begin_s: scenario.begin_s,
+            task: scenario.task.clone(),
             // The cast saturates.
             supply_code: (scenario.supply_v / full_scale_v * 65535.0 + 0.5) as u16,
             events: scenario.events.clone(),
@@ -42,7 +44,8 @@ impl Operator {
             codes,
             supply_code: self.supply_code,
             command_counter: if fresh { last_sent.wrapping_add(1) } else { last_sent },
-            request: if time_s >= self.dig_s { Request::Dig } else { Request::Neutral },
+            request: if time_s >= self.begin_s { self.task.request() } else { Request::Neutral },
+            levers: self.task.levers(time_s),
             enable: time_s >= self.enable_s,
             emergency_stop: false,
             overrun: false,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Log;
 use crate::place::{Image, Timing};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Task};
 use crate::travel::Violation;
 
 /// A fault in the summary.
@@ -89,8 +89,8 @@ pub struct Summary {
     pub ticks: usize,
     /// CRC-64/XZ over every output of every tick, sixteen hexadecimal digits.
     pub output_hash: Option<String>,
-    /// Whether the dig was followed to its end.
-    pub dig_completed: bool,
+    /// Whether the dig was followed to its end; null where none is asked for.
+    pub dig_completed: Option<bool>,
     /// Root mean square of |reference(t) − true tip(t)| while digging, m.
     pub tip_error_rms_m: Option<f64>,
     /// Largest of the same, m.
@@ -150,7 +150,7 @@ impl Summary {
             seed,
             ticks: 0,
             output_hash: None,
-            dig_completed: false,
+            dig_completed: (scenario.task == Task::Dig).then_some(false),
             tip_error_rms_m: None,
             tip_error_max_m: None,
             real_time_factor: None,
@@ -165,13 +165,15 @@ impl Summary {
     pub fn of(scenario: &Scenario, on: &'static str, seed: u64, log: &Log, emulator: Option<EmulatorFigures>) -> Self {
         let errors: Vec<f64> = log.rows.iter().filter_map(super::Row::tip_error_m).collect();
         let square_sum: f64 = errors.iter().map(|e| e * e).sum();
-        let [_, _, dig_duration_s] = scenario.dig.until_s;
         let faults = log.faults.iter();
         let hits = log.stop_hits.iter();
         Self {
             ticks: log.rows.len(),
             output_hash: Some(format!("{:016x}", log.output_hash)),
-            dig_completed: log.dig_completed(dig_duration_s),
+            dig_completed: scenario.parameters.dig.map(|dig| {
+                let [_, _, duration_s] = dig.until_s;
+                log.dig_completed(duration_s)
+            }),
             tip_error_rms_m: (!errors.is_empty()).then(|| libm::sqrt(square_sum / errors.len() as f64)),
             tip_error_max_m: errors.iter().copied().max_by(f64::total_cmp),
             real_time_factor: Some(scenario.duration_s / log.wall.as_secs_f64()),

@@ -4,11 +4,13 @@ use firmware::Parameters;
 use firmware::dig::DigParameters;
 use firmware::parameters::{Coil, MotionParameters, PositionSensor, Supply, SwingSensor, ValveDirection};
 use kinematics_core::geometry::Stroke;
+use kinematics_core::{Machine, PinGeometry, Rotor};
 
+use super::check::within;
 use super::file::{self, Reading, ScenarioFile};
-use super::{Events, Scenario};
+use super::{Events, Scenario, Start, Task};
 use crate::machine_file::MachineFile;
-use crate::plant::{CoilModel, CylinderModel};
+use crate::plant::{ActuatorModel, CoilModel};
 
 /// Codes at the ends of a stroke: 0.5 V and 9.5 V of a 10 V converter, so that an open or shorted wire shows.
 const END_CODES: [u16; 2] = [3277, 62258];
@@ -48,25 +50,71 @@ fn dig(file: &file::Dig) -> DigParameters {
     dig
 }
 
-pub(super) fn scenario(file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
-    let g = &machine.geometry;
-    let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
-    let p = &file.plant;
-    let dead_band = [p.dead_band_extend, p.dead_band_retract];
-    let speeds = [p.boom_speed_mps, p.arm_speed_mps, p.bucket_speed_mps];
-    let models: [CylinderModel; 3] = std::array::from_fn(|i| CylinderModel {
-        stroke: strokes[i],
+/// The one task of the file.
+fn task(file: &mut ScenarioFile) -> Result<Task, String> {
+    let moves = std::mem::take(&mut file.lever);
+    match (&file.dig, moves.is_empty(), file.start) {
+        (Some(_), true, None) => Ok(Task::Dig),
+        (Some(_), true, Some(_)) => Err("`start` must be left out with `dig`, which says where it starts".to_owned()),
+        (None, false, Some(start)) => Ok(Task::Levers { start, moves }),
+        (None, false, None) => Err("`start` is missing: where the machine stands before the levers move".to_owned()),
+        (Some(_), false, _) => Err("either `dig` or `lever`, not both".to_owned()),
+        (None, true, _) => Err("one of `dig` and `lever` is needed: what the operator does".to_owned()),
+    }
+}
+
+/// Swing, boom, arm, bucket of the plant.
+fn actuators(p: &file::Plant, machine: &Machine<f64>, geometry: &PinGeometry) -> Result<[ActuatorModel; 4], String> {
+    let model = |stroke, speed: f64, ratio: f64| ActuatorModel {
+        stroke,
         dead_time_s: p.dead_time_s,
         spool_lag_s: p.spool_lag_s,
-        dead_band,
-        full_speed_mps: [speeds[i], speeds[i] * p.retract_speed_ratio],
-    });
+        dead_band: [p.dead_band_extend, p.dead_band_retract],
+        full_speed: [speed, speed * ratio],
+    };
+    let swing = match (machine.swing_cylinder(), geometry.swing) {
+        (Some(cylinder), Some(pins)) => {
+            let ahead = cylinder.length(Rotor::IDENTITY).and_then(|length| cylinder.moment_arm(length));
+            let moment_arm = ahead.map_err(|error| format!("`machine`: at zero swing: {error}"))?;
+            let speed = p.swing_speed_rad_s * moment_arm.abs();
+            model(Some(pins.stroke), speed, p.retract_speed_ratio)
+        }
+        // A motor is as fast either way.
+        _ => model(None, p.swing_speed_rad_s, 1.0),
+    };
+    let cylinder = |stroke, speed| model(Some(stroke), speed, p.retract_speed_ratio);
+    Ok([
+        swing,
+        cylinder(geometry.boom.stroke, p.boom_speed_mps),
+        cylinder(geometry.arm.stroke, p.arm_speed_mps),
+        cylinder(geometry.bucket.stroke, p.bucket_speed_mps),
+    ])
+}
+
+/// The start's lengths lie within the strokes.
+fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
+    let range = |stroke: Stroke| [stroke.min_m, stroke.max_m];
+    within(&[
+        ("start.swing_deg", start.swing_deg, [-180.0, 180.0]),
+        ("start.boom_m", start.boom_m, range(g.boom.stroke)),
+        ("start.arm_m", start.arm_m, range(g.arm.stroke)),
+        ("start.bucket_m", start.bucket_m, range(g.bucket.stroke)),
+    ])
+}
+
+pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
+    let g = &machine.geometry;
+    let task = task(&mut file)?;
+    if let Task::Levers { start, .. } = &task {
+        start_ranges(start, g)?;
+    }
+    let p = &file.plant;
+    // Loading the machine has checked its geometry.
+    let maps = Machine::new(g).map_err(|error| error.to_string())?;
+    let plant = actuators(p, &maps, g)?;
     // The controller knows its valves as a calibration would leave them: here exactly.
-    let valves = models.map(|model| {
-        [0, 1].map(|d| ValveDirection {
-            dead_band: model.dead_band[d] as f32,
-            full_speed_mps: model.full_speed_mps[d] as f32,
-        })
+    let valves = plant.map(|model| {
+        [0, 1].map(|d| ValveDirection { dead_band: model.dead_band[d] as f32, full_speed: model.full_speed[d] as f32 })
     });
     let m = &file.motion;
     let [min_v, max_v] = SUPPLY_RANGE_V;
@@ -75,7 +123,7 @@ pub(super) fn scenario(file: ScenarioFile, machine: MachineFile) -> Result<Scena
         swing_sensor: g
             .swing
             .map_or(SwingSensor::Angle { zero_code: ZERO_CODE }, |s| SwingSensor::Cylinder(sensor(s.stroke))),
-        cylinder_sensors: strokes.map(sensor),
+        cylinder_sensors: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(sensor),
         valves,
         coil: Coil { full_scale_a: p.coil_full_scale_a as f32, resistance_ohm: p.coil_resistance_ohm as f32 },
         supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
@@ -87,7 +135,7 @@ pub(super) fn scenario(file: ScenarioFile, machine: MachineFile) -> Result<Scena
             start_tolerance_m: m.start_tolerance_m as f32,
             following_error_m: m.following_error_m as f32,
         },
-        dig: dig(&file.dig),
+        dig: file.dig.as_ref().map(dig),
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {
@@ -95,10 +143,10 @@ pub(super) fn scenario(file: ScenarioFile, machine: MachineFile) -> Result<Scena
         description: file.description,
         duration_s: file.duration_s,
         enable_s: file.operator.enable_s,
-        dig_s: file.operator.dig_s,
-        dig: parameters.dig,
+        begin_s: file.operator.begin_s,
+        task,
         parameters,
-        plant: models,
+        plant,
         coil: CoilModel { full_scale_a: p.coil_full_scale_a, resistance_ohm: p.coil_resistance_ohm },
         supply_v: p.supply_v,
         sensor_noise_m: p.sensor_noise_m,

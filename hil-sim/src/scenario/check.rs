@@ -1,6 +1,6 @@
 //! Every number of a scenario within its range, by name.
 
-use super::file::ScenarioFile;
+use super::file::{Dig, ScenarioFile};
 
 /// The name becomes the report's folder.
 fn name(name: &str) -> Result<(), String> {
@@ -12,17 +12,74 @@ fn name(name: &str) -> Result<(), String> {
     }
 }
 
+/// Each value within its range, by its field's name.
+pub(super) fn within(checks: &[(&str, f64, [f64; 2])]) -> Result<(), String> {
+    for &(field, value, [low, high]) in checks {
+        // Written so that NaN fails.
+        if !(value >= low && value <= high) {
+            return Err(format!("`{field}` is {value} but must be within {low}…{high}"));
+        }
+    }
+    Ok(())
+}
+
 pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
     name(&s.name)?;
+    let run = [0.0, s.duration_s];
+    let (o, m, p) = (&s.operator, &s.motion, &s.plant);
+    within(&[
+        ("duration_s", s.duration_s, [0.01, 600.0]),
+        ("operator.enable_s", o.enable_s, run),
+        ("operator.begin_s", o.begin_s, run),
+        ("motion.preview_s", m.preview_s, [0.0, 1.0]),
+        ("motion.gain_per_s", m.gain_per_s, [0.0, 20.0]),
+        ("motion.smallest_speed_mps", m.smallest_speed_mps, [0.0, 0.1]),
+        ("motion.start_tolerance_m", m.start_tolerance_m, [0.001, 0.5]),
+        ("motion.following_error_m", m.following_error_m, [m.start_tolerance_m, 0.5]),
+        ("plant.dead_time_s", p.dead_time_s, [0.0, 1.0]),
+        ("plant.spool_lag_s", p.spool_lag_s, [0.0, 1.0]),
+        ("plant.dead_band_extend", p.dead_band_extend, [0.0, 0.9]),
+        ("plant.dead_band_retract", p.dead_band_retract, [0.0, 0.9]),
+        ("plant.swing_speed_rad_s", p.swing_speed_rad_s, [0.005, 4.0]),
+        ("plant.boom_speed_mps", p.boom_speed_mps, [0.005, 4.0]),
+        ("plant.arm_speed_mps", p.arm_speed_mps, [0.005, 4.0]),
+        ("plant.bucket_speed_mps", p.bucket_speed_mps, [0.005, 4.0]),
+        ("plant.retract_speed_ratio", p.retract_speed_ratio, [0.25, 1.25]),
+        ("plant.coil_full_scale_a", p.coil_full_scale_a, [0.05, 5.0]),
+        ("plant.coil_resistance_ohm", p.coil_resistance_ohm, [0.5, 100.0]),
+        ("plant.supply_v", p.supply_v, [0.0, 48.0]),
+        ("plant.sensor_noise_m", p.sensor_noise_m, [0.0, 0.01]),
+    ])?;
+    if o.begin_s <= o.enable_s {
+        return Err(format!(
+            "`operator.begin_s` is {} but must be after `operator.enable_s`, {}: enabling needs levers in neutral",
+            o.begin_s, o.enable_s
+        ));
+    }
+    let needed_v = p.coil_full_scale_a * p.coil_resistance_ohm;
+    if needed_v > p.supply_v {
+        return Err(format!(
+            "`plant.supply_v` is {} but full-scale current through `plant.coil_resistance_ohm` needs {needed_v} V",
+            p.supply_v
+        ));
+    }
+    if let Some(dig) = &s.dig {
+        dig_ranges(dig)?;
+    }
+    for (i, lever) in s.lever.iter().enumerate() {
+        lever.check(s.duration_s).map_err(|what| format!("`lever[{i}]`: {what}"))?;
+    }
+    for (i, event) in s.event.iter().enumerate() {
+        event.check(s.duration_s).map_err(|what| format!("`event[{i}]`: {what}"))?;
+    }
+    Ok(())
+}
+
+fn dig_ranges(d: &Dig) -> Result<(), String> {
     let far = [-50.0, 50.0];
     let length = [0.01, 50.0];
     let turn = [-720.0, 720.0];
-    let run = [0.0, s.duration_s];
-    let (o, d, m, p) = (&s.operator, &s.dig, &s.motion, &s.plant);
-    let checks = [
-        ("duration_s", s.duration_s, [0.01, 600.0]),
-        ("operator.enable_s", o.enable_s, run),
-        ("operator.dig_s", o.dig_s, run),
+    within(&[
         ("dig.samples", f64::from(d.samples), [10.0, 100_000.0]),
         ("dig.start_x_m", d.start_x_m, far),
         ("dig.start_z_m", d.start_z_m, far),
@@ -38,45 +95,5 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
         ("dig.scoop_until_s", d.scoop_until_s, [0.1, 600.0]),
         ("dig.plunge_until_s", d.plunge_until_s, [0.05, d.scoop_until_s - 0.01]),
         ("dig.reach_until_s", d.reach_until_s, [0.01, d.plunge_until_s - 0.01]),
-        ("motion.preview_s", m.preview_s, [0.0, 1.0]),
-        ("motion.gain_per_s", m.gain_per_s, [0.0, 20.0]),
-        ("motion.smallest_speed_mps", m.smallest_speed_mps, [0.0, 0.1]),
-        ("motion.start_tolerance_m", m.start_tolerance_m, [0.001, 0.5]),
-        ("motion.following_error_m", m.following_error_m, [m.start_tolerance_m, 0.5]),
-        ("plant.dead_time_s", p.dead_time_s, [0.0, 1.0]),
-        ("plant.spool_lag_s", p.spool_lag_s, [0.0, 1.0]),
-        ("plant.dead_band_extend", p.dead_band_extend, [0.0, 0.9]),
-        ("plant.dead_band_retract", p.dead_band_retract, [0.0, 0.9]),
-        ("plant.boom_speed_mps", p.boom_speed_mps, [0.005, 4.0]),
-        ("plant.arm_speed_mps", p.arm_speed_mps, [0.005, 4.0]),
-        ("plant.bucket_speed_mps", p.bucket_speed_mps, [0.005, 4.0]),
-        ("plant.retract_speed_ratio", p.retract_speed_ratio, [0.25, 1.25]),
-        ("plant.coil_full_scale_a", p.coil_full_scale_a, [0.05, 5.0]),
-        ("plant.coil_resistance_ohm", p.coil_resistance_ohm, [0.5, 100.0]),
-        ("plant.supply_v", p.supply_v, [0.0, 48.0]),
-        ("plant.sensor_noise_m", p.sensor_noise_m, [0.0, 0.01]),
-    ];
-    for (field, value, [low, high]) in checks {
-        // Written so that NaN fails.
-        if !(value >= low && value <= high) {
-            return Err(format!("`{field}` is {value} but must be within {low}…{high}"));
-        }
-    }
-    if o.dig_s <= o.enable_s {
-        return Err(format!(
-            "`operator.dig_s` is {} but must be after `operator.enable_s`, {}: enabling needs levers in neutral",
-            o.dig_s, o.enable_s
-        ));
-    }
-    let needed_v = p.coil_full_scale_a * p.coil_resistance_ohm;
-    if needed_v > p.supply_v {
-        return Err(format!(
-            "`plant.supply_v` is {} but full-scale current through `plant.coil_resistance_ohm` needs {needed_v} V",
-            p.supply_v
-        ));
-    }
-    for (i, event) in s.event.iter().enumerate() {
-        event.check(s.duration_s).map_err(|what| format!("`event[{i}]`: {what}"))?;
-    }
-    Ok(())
+    ])
 }

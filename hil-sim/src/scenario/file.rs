@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::event::Event;
+use super::task::{LeverMove, Start};
 use crate::toml_text::{Tag, strictly};
 
 const TAGS: [Tag; 1] = [("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
@@ -15,7 +16,10 @@ pub(super) struct ScenarioFile {
     pub(super) machine: String,
     pub(super) duration_s: f64,
     pub(super) operator: Operator,
-    pub(super) dig: Dig,
+    pub(super) dig: Option<Dig>,
+    pub(super) start: Option<Start>,
+    #[serde(default)]
+    pub(super) lever: Vec<LeverMove>,
     pub(super) motion: Motion,
     pub(super) plant: Plant,
     #[serde(default)]
@@ -26,7 +30,7 @@ pub(super) struct ScenarioFile {
 #[serde(deny_unknown_fields)]
 pub(super) struct Operator {
     pub(super) enable_s: f64,
-    pub(super) dig_s: f64,
+    pub(super) begin_s: f64,
 }
 
 /// How to read the paper's program.
@@ -77,6 +81,7 @@ pub(super) struct Plant {
     pub(super) spool_lag_s: f64,
     pub(super) dead_band_extend: f64,
     pub(super) dead_band_retract: f64,
+    pub(super) swing_speed_rad_s: f64,
     pub(super) boom_speed_mps: f64,
     pub(super) arm_speed_mps: f64,
     pub(super) bucket_speed_mps: f64,

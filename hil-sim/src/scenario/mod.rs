@@ -1,4 +1,4 @@
-//! Scenario files: a machine, a dig, an operator, a plant, and what goes wrong when.
+//! Scenario files: a machine, a task, an operator, a plant, and what goes wrong when.
 //!
 //! The format is described in `docs/scenarios.md`.
 
@@ -6,16 +6,17 @@ mod build;
 mod check;
 mod event;
 mod file;
+mod task;
 
 use std::path::{Path, PathBuf};
 
 use firmware::Parameters;
-use firmware::dig::DigParameters;
 
 use crate::machine_file::{MachineFile, MachineFileError};
-use crate::plant::{CoilModel, CylinderModel};
+use crate::plant::{ActuatorModel, CoilModel};
 
 pub use event::{Event, Events, Kind};
+pub use task::{LeverMove, Start, Task};
 
 /// A scenario, checked, with everything a run needs.
 #[derive(Clone, Debug)]
@@ -30,14 +31,14 @@ pub struct Scenario {
     pub duration_s: f64,
     /// When the operator switches enable on, s.
     pub enable_s: f64,
-    /// When the operator asks for the dig, s.
-    pub dig_s: f64,
-    /// The dig as the controller gets it.
-    pub dig: DigParameters,
+    /// When the operator begins the task, s.
+    pub begin_s: f64,
+    /// What the operator does.
+    pub task: Task,
     /// Everything the controller is built from.
     pub parameters: Parameters,
-    /// Boom, arm, bucket of the simulated machine.
-    pub plant: [CylinderModel; 3],
+    /// Swing, boom, arm, bucket of the simulated machine.
+    pub plant: [ActuatorModel; 4],
     /// Their coils.
     pub coil: CoilModel,
     /// Nominal supply, V.

@@ -1,25 +1,14 @@
-//! Fourth stage: what the operator wants → cylinder speeds. Follows the dig: feed-forward seen ahead by the known dead
-//! time, plus proportional correction of each cylinder.
+//! Follows the dig: feed-forward seen ahead by the known dead time, plus proportional correction of each cylinder.
 
 use kinematics_core::{Cylinders, Machine};
 
+use super::Wanted;
+use super::creep::Creep;
 use crate::TICKS_PER_S;
-use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
-use crate::io::{NO_LENGTHS, Request};
+use crate::io::Speeds;
 use crate::parameters::MotionParameters;
-
-/// What the motion stage hands on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wanted {
-    /// Cylinder speeds, m/s, extending positive.
-    pub speeds: Cylinders<f32>,
-    /// Where the cylinders should be this tick, m.
-    pub reference: Cylinders<f32>,
-    /// 1 + the dig's tick, 0 when not digging.
-    pub dig_tick: u32,
-}
 
 #[derive(Clone, Copy, Debug)]
 enum Mode {
@@ -33,24 +22,9 @@ enum Mode {
     Done,
 }
 
-/// Passes speeds worth moving for. Sensor noise around rest must not make the spool hop across its dead band: once at rest, a
-/// cylinder starts at the smallest speed and stops below half of it.
-#[derive(Clone, Copy, Debug, Default)]
-struct Creep {
-    moving: bool,
-}
-
-impl Creep {
-    fn pass(&mut self, speed: f32, smallest: f32) -> f32 {
-        let threshold = if self.moving { 0.5 * smallest } else { smallest };
-        self.moving = speed >= threshold || speed <= -threshold;
-        if self.moving { speed } else { 0.0 }
-    }
-}
-
-/// The motion stage.
+/// The dig's follower.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion {
+pub(super) struct DigFollower {
     dig: Dig<f32>,
     dig_ticks: u32,
     preview_ticks: u32,
@@ -70,8 +44,8 @@ fn all_within(c: Cylinders<f32>, limit: f32) -> bool {
     [c.boom, c.arm, c.bucket].into_iter().all(|x| x >= -limit && x <= limit)
 }
 
-impl Motion {
-    pub(crate) fn new(p: &MotionParameters, dig: Dig<f32>) -> Self {
+impl DigFollower {
+    pub(super) fn new(p: &MotionParameters, dig: Dig<f32>) -> Self {
         Self {
             dig,
             dig_ticks: dig.ticks(),
@@ -86,27 +60,14 @@ impl Motion {
     }
 
     /// Back to holding: the next dig starts over.
-    pub(crate) fn reset(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.mode = Mode::Hold;
         self.creep = [Creep::default(); 3];
     }
 
-    /// Speeds for this tick; `running` tells that the gate was open in the last one, and without it motion starts over.
-    ///
-    /// # Errors
-    /// [`Fault::NotAtStart`], [`Fault::FollowingError`], [`Fault::Trajectory`].
-    pub fn follow(
-        &mut self,
-        machine: &Machine<f32>,
-        running: bool,
-        intent: &Intent,
-        lengths: &Cylinders<f32>,
-    ) -> Result<Wanted, Fault> {
-        let hold = Wanted { speeds: NO_LENGTHS, reference: *lengths, dig_tick: 0 };
-        if !running || intent.request == Request::Neutral {
-            self.reset();
-            return Ok(hold);
-        }
+    /// Speeds for this tick of the dig.
+    pub(super) fn follow(&mut self, machine: &Machine<f32>, lengths: &Cylinders<f32>) -> Result<Wanted, Fault> {
+        let hold = Wanted::hold(lengths);
         match self.mode {
             Mode::Done => Ok(hold),
             Mode::Hold => {
@@ -145,7 +106,8 @@ impl Motion {
         let asked = for_each(feed_forward, error, |speed, error| speed + self.gain_per_s * error);
         let [boom, arm, bucket] = &mut self.creep;
         let smallest = self.smallest_speed_mps;
-        let speeds = Cylinders {
+        let speeds = Speeds {
+            swing: 0.0,
             boom: boom.pass(asked.boom, smallest),
             arm: arm.pass(asked.arm, smallest),
             bucket: bucket.pass(asked.bucket, smallest),

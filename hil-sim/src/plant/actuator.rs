@@ -1,39 +1,40 @@
-//! One cylinder and its spool: dead time, first-order spool, dead band, gains per direction, travel stops.
+//! One actuator and its spool: dead time, first-order spool, dead band, gains per direction, travel stops. A cylinder's position is
+//! its length between the pins, m; a swing motor's is its angle, rad, and has no stops.
 
 use std::collections::VecDeque;
 
 use kinematics_core::geometry::Stroke;
 
-/// What a spool and its cylinder are like.
+/// What a spool and its actuator are like.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CylinderModel {
-    /// Travel, m.
-    pub stroke: Stroke,
+pub struct ActuatorModel {
+    /// Travel of a cylinder; `None` for a motor, which turns freely.
+    pub stroke: Option<Stroke>,
     /// From the current to the spool's first move, s.
     pub dead_time_s: f64,
     /// Time constant of the spool, s.
     pub spool_lag_s: f64,
     /// Fraction of full scale below which nothing flows: extend, retract.
     pub dead_band: [f64; 2],
-    /// Speed at full scale, m/s: extend, retract.
-    pub full_speed_mps: [f64; 2],
+    /// Speed at full scale, m/s or rad/s: extend, retract.
+    pub full_speed: [f64; 2],
 }
 
-/// A cylinder in motion.
+/// An actuator in motion.
 #[derive(Clone, Debug)]
-pub struct Cylinder {
-    model: CylinderModel,
+pub struct Actuator {
+    model: ActuatorModel,
     /// Spool commands under way, oldest first.
     under_way: VecDeque<f64>,
     spool_step: f64,
     spool: f64,
-    length_m: f64,
+    position: f64,
     against_stop: bool,
 }
 
-impl Cylinder {
-    /// At rest at `length_m`, stepped every `step_s`.
-    pub fn new(model: CylinderModel, length_m: f64, step_s: f64) -> Self {
+impl Actuator {
+    /// At rest at `position`, stepped every `step_s`.
+    pub fn new(model: ActuatorModel, position: f64, step_s: f64) -> Self {
         let delay = (model.dead_time_s / step_s + 0.5) as usize;
         let spool_step = if model.spool_lag_s > 0.0 { 1.0 - libm::exp(-step_s / model.spool_lag_s) } else { 1.0 };
         Self {
@@ -41,7 +42,7 @@ impl Cylinder {
             under_way: VecDeque::from(vec![0.0; delay]),
             spool_step,
             spool: 0.0,
-            length_m,
+            position,
             against_stop: false,
         }
     }
@@ -52,23 +53,22 @@ impl Cylinder {
         let delayed = self.under_way.pop_front().unwrap_or(command);
         self.spool += (delayed - self.spool) * self.spool_step;
 
-        let moved = self.length_m + self.speed_mps() * step_s;
-        let Stroke { min_m, max_m } = self.model.stroke;
-        self.length_m = moved.clamp(min_m, max_m);
-        self.against_stop = self.length_m != moved;
+        let moved = self.position + self.speed() * step_s;
+        self.position = self.model.stroke.map_or(moved, |Stroke { min_m, max_m }| moved.clamp(min_m, max_m));
+        self.against_stop = self.position != moved;
     }
 
-    /// Speed the spool's opening asks for, m/s.
-    fn speed_mps(&self) -> f64 {
+    /// Speed the spool's opening asks for, m/s or rad/s.
+    fn speed(&self) -> f64 {
         let (direction, sign) = if self.spool > 0.0 { (0, 1.0) } else { (1, -1.0) };
         let dead_band = self.model.dead_band[direction];
         let opening = (self.spool * sign - dead_band) / (1.0 - dead_band);
-        if opening > 0.0 { sign * opening * self.model.full_speed_mps[direction] } else { 0.0 }
+        if opening > 0.0 { sign * opening * self.model.full_speed[direction] } else { 0.0 }
     }
 
-    /// Length between the pins, m.
-    pub fn length_m(&self) -> f64 {
-        self.length_m
+    /// Length between the pins, m, or angle, rad.
+    pub fn position(&self) -> f64 {
+        self.position
     }
 
     /// The last step ended at a travel stop that held it back.
@@ -83,23 +83,23 @@ mod tests {
 
     const STEP: f64 = 0.001;
 
-    fn cylinder() -> Cylinder {
-        let model = CylinderModel {
-            stroke: Stroke { min_m: 1.0, max_m: 2.0 },
+    fn cylinder() -> Actuator {
+        let model = ActuatorModel {
+            stroke: Some(Stroke { min_m: 1.0, max_m: 2.0 }),
             dead_time_s: 0.1,
             spool_lag_s: 0.05,
             dead_band: [0.15, 0.20],
-            full_speed_mps: [0.5, 0.4],
+            full_speed: [0.5, 0.4],
         };
-        Cylinder::new(model, 1.5, STEP)
+        Actuator::new(model, 1.5, STEP)
     }
 
-    fn run(cylinder: &mut Cylinder, command: f64, seconds: f64) -> f64 {
-        let before = cylinder.length_m();
+    fn run(cylinder: &mut Actuator, command: f64, seconds: f64) -> f64 {
+        let before = cylinder.position();
         for _ in 0..(seconds / STEP) as u32 {
             cylinder.step(command, STEP);
         }
-        cylinder.length_m() - before
+        cylinder.position() - before
     }
 
     #[test]
@@ -129,9 +129,16 @@ mod tests {
     fn a_travel_stop_holds_and_says_so() {
         let mut c = cylinder();
         run(&mut c, 1.0, 5.0);
-        assert_eq!(c.length_m(), 2.0);
+        assert_eq!(c.position(), 2.0);
         assert!(c.against_stop());
         run(&mut c, 0.0, 1.0);
         assert!(!c.against_stop());
+    }
+
+    #[test]
+    fn a_motor_turns_on_without_a_stop() {
+        let model = ActuatorModel { stroke: None, ..cylinder().model };
+        let mut motor = Actuator::new(model, 0.0, STEP);
+        assert!(run(&mut motor, 1.0, 30.0) > 14.0 && !motor.against_stop());
     }
 }
