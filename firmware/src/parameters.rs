@@ -7,6 +7,7 @@ use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::dig::DigParameters;
+use crate::fence::FenceParameters;
 use crate::travel::Violation;
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
@@ -99,6 +100,8 @@ pub struct Parameters {
     pub motion: MotionParameters,
     /// The dig, where there is one.
     pub dig: Option<DigParameters>,
+    /// The fence, where there is one.
+    pub fence: Option<FenceParameters>,
 }
 
 /// What is wrong with a parameter record.
@@ -152,13 +155,13 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
+pub(crate) fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
     let [low, high] = range;
     // Written so that NaN fails.
     if value >= low && value <= high { Ok(()) } else { Err(ParameterError::OutOfRange { field, value, range }) }
 }
 
-fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
+pub(crate) fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
     if below.1 < above.1 { Ok(()) } else { Err(ParameterError::Order { below: below.0, above: above.0 }) }
 }
 
@@ -217,6 +220,7 @@ impl Parameters {
         ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
+        self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)
     }
 }

@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod fence;
 pub mod machine;
 pub mod pose;
 mod progress;
@@ -28,6 +29,8 @@ enum Command {
     Machine(machine::MachineArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
+    /// Try fences with random operators on the simulated machine: whole linkage, tip only, none
+    Fence(fence::FenceArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
 }
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Pose(args) }) => pose::main(&args),
         Ok(Hil { command: Command::Machine(args) }) => machine::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {

@@ -7,11 +7,13 @@
 //! - [`plant`] — the simulated machine;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`run`] — all of it together, tick by tick;
+//! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod fence;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;

@@ -136,6 +136,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             following_error_m: m.following_error_m as f32,
         },
         dig: file.dig.as_ref().map(dig),
+        fence: file.fence.as_ref().map(|fence| fence.parameters(&machine, p.dead_time_s, p.spool_lag_s)).transpose()?,
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {

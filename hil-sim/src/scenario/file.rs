@@ -3,10 +3,12 @@
 use serde::Deserialize;
 
 use super::event::Event;
+use super::fence::FenceTable;
 use super::task::{LeverMove, Start};
 use crate::toml_text::{Tag, strictly};
 
-const TAGS: [Tag; 1] = [("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
+const TAGS: [Tag; 2] =
+    [("fence.guards", "`\"linkage\"` or `\"tip\"`"), ("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -22,6 +24,7 @@ pub(super) struct ScenarioFile {
     pub(super) lever: Vec<LeverMove>,
     pub(super) motion: Motion,
     pub(super) plant: Plant,
+    pub(super) fence: Option<FenceTable>,
     #[serde(default)]
     pub(super) event: Vec<Event>,
 }

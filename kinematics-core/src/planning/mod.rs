@@ -2,7 +2,9 @@
 //! comes nearer.
 //!
 //! 1. [`outline`] — the linkage's bodies as rounded strips, placed by the joints;
-//! 2. [`clearance`] — their distance to half-spaces and spheres, with its derivative by every joint.
+//! 2. [`clearance`] — their distance to half-spaces and spheres, with its derivative by every joint;
+//! 3. [`fence`] — commands slowed so that the machine stops before them.
 
 pub mod clearance;
+pub mod fence;
 pub mod outline;
