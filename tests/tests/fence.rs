@@ -102,7 +102,10 @@ fn the_swing_s_range_may_lie_anywhere_and_its_room_is_never_told_too_large() {
             let (to_right, to_left) = (at - right, left - at);
             let really = if to_right < to_left { to_right } else { to_left };
             if really >= 0.0 {
-                assert!(room <= really + 1e-9 && room > 0.63 * really - 1e-9, "{room} of {really} at {at} in {right}…{left}");
+                assert!(
+                    room <= really + 1e-9 && room > 0.63 * really - 1e-9,
+                    "{room} of {really} at {at} in {right}…{left}"
+                );
             } else if really > -90.0 {
                 assert!(room < 0.0, "{room} beyond by {really} at {at} in {right}…{left}");
             }
