@@ -35,7 +35,7 @@ fn what_is_let_through_lies_between_nothing_and_what_was_wanted_and_keeps_every_
             let fence = Fence { limits, stopping: STOPPING, turning: STOPPING };
             let transmissions = [1.0, b, a, k];
             let wanted = [within(-1.0, 1.0), within(-0.3, 0.3), within(-0.4, 0.4), within(-0.5, 0.5)];
-            let through = fence.limit(&placed.strips, swing, &base, &transmissions, &wanted, [true; 4]);
+            let through = fence.limit(&placed.strips, swing, &base, &transmissions, &wanted, [1.0; 4]);
             for (let_through, wanted) in through.rates.into_iter().zip(wanted) {
                 let part = let_through / wanted;
                 assert!((0.0..=1.0).contains(&part), "{name}: {let_through} of {wanted}");
@@ -66,7 +66,7 @@ fn inside_a_limit_the_way_out_is_free_and_the_way_in_is_closed() {
     let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
     let boom = |rate: f64| {
         let wanted = [0.2, rate, 0.0, 0.0];
-        fence.limit(&placed.strips, Rotor::IDENTITY, &base, &[1.0; 4], &wanted, [true; 4]).rates
+        fence.limit(&placed.strips, Rotor::IDENTITY, &base, &[1.0; 4], &wanted, [1.0; 4]).rates
     };
     assert_eq!(boom(0.1), [0.2, 0.0, 0.0, 0.0]);
     assert_eq!(boom(-0.1), [0.2, -0.1, 0.0, 0.0]);
@@ -86,9 +86,9 @@ fn an_actuator_at_its_stop_makes_up_for_no_other() {
     // The arm lowers the tip as fast as the boom lifts it.
     let [per_boom, per_arm, _] = tip.ends[0].per_joint.map(|v| v.z);
     let wanted = [0.0, 0.1, -0.1 * per_boom / per_arm * 0.999, 0.0];
-    let limit = |moves| fence.limit(&[tip], Rotor::IDENTITY, &base, &[1.0; 4], &wanted, moves).rates;
-    assert_eq!(limit([true; 4]), wanted);
-    assert_eq!(limit([true, false, true, true]), [0.0, 0.1, 0.0, 0.0]);
+    let limit = |receding| fence.limit(&[tip], Rotor::IDENTITY, &base, &[1.0; 4], &wanted, receding).rates;
+    assert_eq!(limit([1.0; 4]), wanted);
+    assert_eq!(limit([1.0, 0.0, 1.0, 1.0]), [0.0, 0.1, 0.0, 0.0]);
 }
 
 #[test]

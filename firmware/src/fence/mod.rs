@@ -123,15 +123,18 @@ impl Fence {
         let transmissions = [per_swing, boom, arm, bucket];
         let wanted = wanted.to_array();
         let ahead = [swing_position, lengths.boom, lengths.arm, lengths.bucket];
-        let mut moves = [true; 4];
-        for ((moves, wanted), (position, [low, high])) in
-            moves.iter_mut().zip(wanted).zip(ahead.into_iter().zip(self.travels))
-        {
-            *moves = if wanted > 0.0 { position < high - NEAR_STOP } else { position > low + NEAR_STOP };
+        let mut receding = [0.0; 4];
+        let actuators = self.to_come.iter().zip(ahead.into_iter().zip(self.travels));
+        for ((part, wanted), (to_come, (position, [low, high]))) in receding.iter_mut().zip(wanted).zip(actuators) {
+            // At its stop, or before its spool has opened, an actuator makes up for no other's approach.
+            let moves = if wanted > 0.0 { position < high - NEAR_STOP } else { position > low + NEAR_STOP };
+            if moves && wanted != 0.0 {
+                *part = limited(to_come.speed() / wanted, 0.0, 1.0);
+            }
         }
         let through = match self.guards {
-            Guards::Linkage => self.fence.limit(&placed.strips, swing, &self.base, &transmissions, &wanted, moves),
-            Guards::Tip => self.fence.limit(&[placed.tip()], swing, &self.base, &transmissions, &wanted, moves),
+            Guards::Linkage => self.fence.limit(&placed.strips, swing, &self.base, &transmissions, &wanted, receding),
+            Guards::Tip => self.fence.limit(&[placed.tip()], swing, &self.base, &transmissions, &wanted, receding),
         };
         Some(Fenced { speeds: Speeds::from_array(through.rates), clearance_m: through.closest })
     }

@@ -77,8 +77,8 @@ impl ToCome {
         }
     }
 
-    /// The speed at the spool's opening.
-    fn speed(&self) -> f32 {
+    /// The speed at the spool's opening, a dead time ahead.
+    pub(super) fn speed(&self) -> f32 {
         let [extend, retract] = &self.valve;
         let (valve, sign, opening) =
             if self.spool > 0.0 { (extend, 1.0, self.spool) } else { (retract, -1.0, -self.spool) };

@@ -23,9 +23,13 @@
 //! let placed = outline.place(&machine, &machine.cylinders_to_joints(&cylinders)?)?;
 //! let [boom, arm, bucket] = machine.moment_arms(&cylinders)?.transmissions()?;
 //!
-//! // A ceiling 2.2 m above the boom pin, and no swinging beyond 60° to either side.
+//! // A ceiling 10 cm above the linkage, and no swinging beyond 60° to either side.
+//! let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
+//! let ceiling = |offset| Some(HalfSpace { normal: [0.0, 0.0, 1.0], offset });
 //! let mut limits = Limits::NONE;
-//! limits.half_spaces[0] = Some(HalfSpace { normal: [0.0, 0.0, 1.0], offset: 2.2 });
+//! limits.half_spaces[0] = ceiling(5.0);
+//! let room = limits.closest(&placed.strips, Rotor::IDENTITY, &base).ok_or("no ceiling")?;
+//! limits.half_spaces[0] = ceiling(5.0 - room + 0.1);
 //! limits.swing = Some(SwingRange::new(-60.0, 60.0));
 //! let stopping = Stopping { deceleration: 1.0, reaction_s: 0.15, margin: 0.02 };
 //! let turning = Stopping { deceleration: 0.5, reaction_s: 0.15, margin: 0.01 };
@@ -33,15 +37,14 @@
 //! let v: f32 = stopping.speed(0.1 + 0.02);
 //! assert!((v * v / 2.0 + 0.15 * v - 0.1).abs() < 1e-6);
 //! let fence = Fence { limits, stopping, turning };
-//! let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
 //! let transmissions = [1.0, boom, arm, bucket];
 //! let limit = |swing: f32, wanted| {
-//!     fence.limit(&placed.strips, Rotor::from_degrees(swing), &base, &transmissions, &wanted, [true; 4])
+//!     fence.limit(&placed.strips, Rotor::from_degrees(swing), &base, &transmissions, &wanted, [1.0; 4])
 //! };
 //!
 //! // Raising the boom is slowed before the ceiling; lowering it, and swinging amid the range, are free.
 //! let up = limit(0.0, [0.3, 0.2, 0.0, 0.0]);
-//! assert!(up.rates[1] < 0.2 && up.rates[1] > 0.0 && up.rates[0] == 0.3);
+//! assert!(up.rates[1] < 0.2 && up.rates[1] > 0.0 && up.rates[0] == 0.3, "{up:?}");
 //! assert_eq!(limit(0.0, [0.3, -0.2, 0.0, 0.0]).rates, [0.3, -0.2, 0.0, 0.0]);
 //! // At the end of the range only the way back is open.
 //! assert_eq!(limit(60.0, [0.3, 0.0, 0.0, 0.0]).rates[0], 0.0);
@@ -216,8 +219,8 @@ struct Bounds<T> {
     bounds: [Bound<T>; BOUNDS],
     used: usize,
     closest: T,
-    /// Whether an actuator's receding share counts.
-    counts: [bool; 4],
+    /// The part of each actuator's wanted rate that counts where it recedes, 0 to 1.
+    counts: [T; 4],
 }
 
 impl<T: Real> Bounds<T> {
@@ -225,8 +228,8 @@ impl<T: Real> Bounds<T> {
     fn keep(&mut self, shares: [T; 4], fastest: T) {
         let mut bound = Bound { shares, fastest };
         for (share, counts) in bound.shares.iter_mut().zip(self.counts) {
-            if !counts && *share < T::ZERO {
-                *share = T::ZERO;
+            if *share < T::ZERO {
+                *share = *share * counts;
             }
         }
         if bound.parts(&[T::ONE; 4]).0 > fastest
@@ -279,8 +282,8 @@ impl<T: Real> Bounds<T> {
 
 impl<T: Real> Fence<T> {
     /// What is let through of the wanted rates of swing, boom, arm, bucket: of actuators, `transmissions` being dθ/dL of each (1
-    /// for a joint's own rate). `strips` and `swing` tell where the machine will stand once what is commanded has arrived; `moves`,
-    /// which actuators can go the way they are wanted to: one at its travel stop makes up for no other's approach.
+    /// for a joint's own rate). `strips` and `swing` tell where the machine will stand once what is commanded has arrived; `receding`,
+    /// which part (0 to 1) of its wanted rate each actuator has reached: only that much makes up for another's approach.
     pub fn limit(
         &self,
         strips: &[Strip<T>],
@@ -288,14 +291,14 @@ impl<T: Real> Fence<T> {
         base: &BasePlacement<T>,
         transmissions: &[T; 4],
         wanted: &[T; 4],
-        moves: [bool; 4],
+        receding: [T; 4],
     ) -> LetThrough<T> {
         let [w1, w2, w3, w4] = *wanted;
         let [t1, t2, t3, t4] = *transmissions;
         let rates = [w1 * t1, w2 * t2, w3 * t3, w4 * t4];
         let unused = Bound { shares: [T::ZERO; 4], fastest: T::ZERO };
         let mut bounds =
-            Bounds { bounds: [unused; BOUNDS], used: 0, closest: T::from_f64(f64::from(f32::MAX)), counts: moves };
+            Bounds { bounds: [unused; BOUNDS], used: 0, closest: T::from_f64(f64::from(f32::MAX)), counts: receding };
         for space in self.limits.half_spaces.iter().flatten() {
             let seen = space.seen(base, swing);
             for strip in strips {
