@@ -8,12 +8,16 @@ use crate::fault::{Fault, State};
 use crate::fence::{Fence, Fenced, NO_CLEARANCE};
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
+use crate::moves::Move;
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::supervisor::{Gate, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::Valve;
+
+/// The control period, s; rounded to f32 it is [`crate::TICK_S`].
+const TICK: f64 = 0.001;
 
 /// The controller: stages, the supervisor, and the last valid pose.
 #[derive(Clone, Debug)]
@@ -31,10 +35,10 @@ pub struct Ecu {
 }
 
 impl Ecu {
-    /// Validates the parameters, the dig's travel included, and builds every stage.
+    /// Validates the parameters, the dig's travel included, plans the move, and builds every stage.
     ///
     /// # Errors
-    /// The first parameter at fault, by name and range, or the dig's first violation.
+    /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
@@ -46,12 +50,16 @@ impl Ecu {
             return Err(ParameterError::Dig(violation));
         }
         let fence = p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.valves)).transpose()?;
+        let planned = match &p.planned_move {
+            Some(planned) => Some(Move::new(&machine, planned, TICK).map_err(ParameterError::Move)?),
+            None => None,
+        };
         Ok(Self {
-            machine,
             sensing,
             command: Command::new(p.command_timeout_ticks),
-            motion: Motion::new(&p.motion, &p.valves, dig),
+            motion: Motion::new(p, &machine, dig, planned.as_ref())?,
             fence,
+            machine,
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
             tick: 0,
@@ -105,7 +113,7 @@ impl Ecu {
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
-            let wanted = self.motion.follow(&self.machine, running, intent, &sensed.lengths)?;
+            let wanted = self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)?;
             let fenced = match &mut self.fence {
                 Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },

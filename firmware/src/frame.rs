@@ -105,6 +105,8 @@ impl Inputs {
             Request::Neutral => 0,
             Request::Dig => 1,
             Request::Levers => 2,
+            Request::Reach => 3,
+            Request::Move => 4,
         };
         let switches = u8::from(self.enable) | u8::from(self.emergency_stop) << 1 | u8::from(self.overrun) << 2;
         w.bytes([self.command_counter, request, switches]);
@@ -127,6 +129,8 @@ impl Inputs {
             0 => Request::Neutral,
             1 => Request::Dig,
             2 => Request::Levers,
+            3 => Request::Reach,
+            4 => Request::Move,
             value => return Err(FrameError { field: "request", value }),
         };
         let switches = r.byte();

@@ -16,6 +16,10 @@ pub enum Request {
     Dig,
     /// Move each actuator as its lever says.
     Levers,
+    /// Follow the planned move.
+    Move,
+    /// Bring the tip to the target of the parameters, past their obstacles.
+    Reach,
 }
 
 /// Speeds of the four actuators: cylinders m/s, extending positive; a swing motor rad/s, counter-clockwise positive, a swing
@@ -88,9 +92,9 @@ pub struct Outputs {
     pub lengths: Cylinders<f32>,
     /// Bucket pose from them.
     pub pose: Pose<f32>,
-    /// Ticks since the dig began, 0 when not digging.
+    /// Ticks since the dig or move began, 0 when following neither.
     pub dig_tick: u32,
-    /// Reference cylinder lengths of this tick, m; the measured ones when not digging.
+    /// Reference cylinder lengths of this tick, m; the measured ones when none is followed.
     pub reference: Cylinders<f32>,
     /// Actuator speeds the motion stage asked for, behind an open gate.
     pub asked: Speeds,

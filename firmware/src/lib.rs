@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod calibration;
 pub mod command;
 pub mod dig;
 mod ecu;
@@ -21,6 +22,7 @@ pub mod frame;
 pub mod io;
 pub mod link;
 pub mod motion;
+pub mod moves;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;

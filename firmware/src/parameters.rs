@@ -3,11 +3,15 @@
 use core::fmt;
 
 use kinematics_core::geometry::Stroke;
+use kinematics_core::planning::avoid::AvoidError;
+use kinematics_core::planning::hull::Sphere;
+use kinematics_core::planning::reach::Target;
 use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
+use crate::moves::{MoveError, MoveParameters, Pitch};
 use crate::travel::Violation;
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
@@ -102,6 +106,23 @@ pub struct Parameters {
     pub dig: Option<DigParameters>,
     /// The fence, where there is one.
     pub fence: Option<FenceParameters>,
+    /// The move, where there is one.
+    pub planned_move: Option<MoveParameters>,
+    /// The target to reach past obstacles, where there is one.
+    pub reach: Option<ReachParameters>,
+}
+
+/// A target for the tip and what stands around, in the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReachParameters {
+    /// Where the tip shall go.
+    pub target: Target<f64>,
+    /// How near it must come, m.
+    pub tolerance_m: f64,
+    /// What to keep away from.
+    pub obstacles: [Option<Sphere<f64>>; 2],
+    /// Speed limits of swing, boom, arm, bucket, rad/s.
+    pub speeds_rad_s: [f64; 4],
 }
 
 /// What is wrong with a parameter record.
@@ -129,6 +150,10 @@ pub enum ParameterError {
     NoSwingCylinder,
     /// The dig leaves reach or stroke.
     Dig(Violation<f32>),
+    /// The move has no plan.
+    Move(MoveError),
+    /// What planning past obstacles lacks.
+    Avoid(AvoidError),
 }
 
 impl From<GeometryError> for ParameterError {
@@ -148,6 +173,8 @@ impl fmt::Display for ParameterError {
             Self::NoSwingCylinder => {
                 f.write_str("`swing_sensor` reads a swing cylinder, but the geometry has no `swing` pins")
             }
+            Self::Move(error) => write!(f, "`move`: {error}"),
+            Self::Avoid(error) => write!(f, "`reach`: {error}"),
             Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
         }
     }
@@ -221,7 +248,29 @@ impl Parameters {
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
-        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)
+        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
+        self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
+        self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)
+    }
+}
+
+impl ReachParameters {
+    fn validate(&self) -> Result<(), ParameterError> {
+        let far = [-50.0, 50.0];
+        within("reach.target.x", self.target.x, far)?;
+        within("reach.target.y", self.target.y, far)?;
+        within("reach.target.z", self.target.z, far)?;
+        within("reach.tolerance_m", self.tolerance_m, [0.001, 1.0])?;
+        for obstacle in self.obstacles.iter().flatten() {
+            within("reach.obstacle.x", obstacle.x, far)?;
+            within("reach.obstacle.y", obstacle.y, far)?;
+            within("reach.obstacle.z", obstacle.z, far)?;
+            within("reach.obstacle.radius", obstacle.radius, [0.0, 50.0])?;
+        }
+        for speed in self.speeds_rad_s {
+            within("reach.speeds_rad_s", speed, [0.001, 4.0])?;
+        }
+        Ok(())
     }
 }
 
@@ -255,5 +304,21 @@ impl DigParameters {
         ordered(("dig.until_s[1]", plunged), ("dig.until_s[2]", end))?;
         within("dig.hold_lead_s", self.hold_lead_s, [0.0, reached])?;
         ordered(("0", 0.0), ("dig.until_s[0]", reached))
+    }
+}
+
+impl MoveParameters {
+    /// Limits and weights are checked where the move is planned.
+    fn validate(&self) -> Result<(), ParameterError> {
+        for place in self.start_m.into_iter().chain(self.target_m) {
+            within("move.start_m, move.target_m", place, [-50.0, 50.0])?;
+        }
+        within("move.start_pitch_deg", self.start_pitch_deg, [-720.0, 720.0])?;
+        within("move.turn_per_knot_deg", self.turn_per_knot_deg, [0.01, 90.0])?;
+        if let Pitch::Bounded { lower_deg, upper_deg } = self.pitch {
+            within("move.lower_deg", lower_deg, [-720.0, self.start_pitch_deg])?;
+            within("move.upper_deg", upper_deg, [self.start_pitch_deg, 720.0])?;
+        }
+        Ok(())
     }
 }

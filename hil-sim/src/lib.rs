@@ -2,25 +2,31 @@
 //!
 //! - [`machine_file`] — a machine's geometry from TOML;
 //! - [`machine_report`] — what an engineer asks of a machine as a whole;
+//! - [`effort`] — least-effort moves against minimum-norm ones;
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
+//! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
+//! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
 pub mod cli;
+pub mod effort;
 pub mod fence;
 pub mod labels;
 pub mod machine_file;
 pub mod machine_report;
 pub mod place;
+pub mod planar_arm;
 pub mod plant;
 pub mod report;
 pub mod run;
 pub mod scenario;
+pub mod scenes;
 mod toml_text;
 pub mod travel;

@@ -17,6 +17,7 @@ use crate::{Real, Rotor, Vec2};
 /// assert_eq!(chain.tip(&joints), Vec2::new(2.5, -1.0));
 /// assert_eq!(chain.jacobian(&joints), [[1.0, 1.0, 0.0], [2.5, 0.5, 0.5]]);
 /// assert_eq!(chain.tip_and_jacobian(&joints), (chain.tip(&joints), chain.jacobian(&joints)));
+/// assert_eq!(chain.ends(&joints), [Vec2::new(2.0, 0.0), Vec2::new(2.0, -1.0), Vec2::new(2.5, -1.0)]);
 /// ```
 /// ```compile_fail
 /// let too_short = kinematics_core::chain_n::PlanarChain::new([1.0f32]);
@@ -51,6 +52,18 @@ impl<T: Real, const N: usize> PlanarChain<T, N> {
             *link = direction.to_vec().scale(length);
         }
         links
+    }
+
+    /// Where each link ends, m, from the first joint; the last is the tip.
+    #[inline]
+    pub fn ends(&self, joints: &[Rotor<T>; N]) -> [Vec2<T>; N] {
+        let mut ends = self.links(joints);
+        let mut end = Vec2::new(T::ZERO, T::ZERO);
+        for link in &mut ends {
+            end = end + *link;
+            *link = end;
+        }
+        ends
     }
 
     /// The tip from the first joint, m: Hareesha 2015 (8).

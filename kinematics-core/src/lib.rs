@@ -19,7 +19,7 @@
 //! 6. [`swing`], [`world`], [`matrix`] — swing, base ↔ world, homogeneous matrices;
 //! 7. [`isotropy`], [`isotropic_configurations`] — how well a pose turns joint rates into motion ([`svd`], [`svd3`] below them);
 //! 8. [`redundancy`] — tip velocity into the rates of N joints ([`chain_n`]), damped and within limits ([`joint_range`]);
-//! 9. [`planning`] — the whole linkage's outline, its distance to obstacles, and a fence.
+//! 9. [`planning`] — past obstacles, within fences, with least effort, and how fast.
 //!
 //! ```
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};

@@ -151,6 +151,34 @@ impl<T: Real> SingularValues<T> {
     }
 }
 
+/// The pseudo-inverse of a Jacobian that may have any rank, rows joints: JᵀΣuuᵀ/max(σ², trusted²). Where both singular values are
+/// at least `trusted` (m, above 0) it is the exact one; a smaller σ is inverted as σ/trusted², which is continuous and 0 at 0. Rounding is worth ε·(σ₁/trusted)².
+///
+/// ```
+/// use kinematics_core::svd::trusted_inverse;
+/// // Of rank one: only motion along the first axis can be asked for.
+/// assert_eq!(trusted_inverse(&[[3.0f64, 4.0], [0.0, 0.0]], 0.1), [[0.12, 0.0], [0.16, 0.0]]);
+/// assert_eq!(trusted_inverse(&[[0.0f64, 0.0], [0.0, 0.0]], 0.1), [[0.0, 0.0], [0.0, 0.0]]);
+/// ```
+#[inline]
+pub fn trusted_inverse<T: Real, const N: usize>(jacobian: &[[T; N]; 2], trusted: T) -> [[T; 2]; N] {
+    let singular = SingularValues::of(jacobian);
+    let gain = |sigma: T| {
+        let used = if sigma > trusted { sigma } else { trusted };
+        T::ONE / (used * used)
+    };
+    let (along, across) = (gain(singular.largest), gain(singular.smallest));
+    let Rotor { cos, sin } = singular.direction;
+    let shear = cos * sin * (along - across);
+    let (xx, zz) = (cos * cos * along + sin * sin * across, sin * sin * along + cos * cos * across);
+    let [reach, height] = jacobian;
+    let mut out = [[T::ZERO; 2]; N];
+    for ((out, &x), &z) in out.iter_mut().zip(reach).zip(height) {
+        *out = [x * xx + z * shear, x * shear + z * zz];
+    }
+    out
+}
+
 /// Jᵀu/σ
 #[inline]
 fn transposed<T: Real, const N: usize>(jacobian: &[[T; N]; 2], u: Rotor<T>, sigma: T) -> [T; N] {

@@ -18,13 +18,14 @@ pub fn scenario(name: &str) -> Scenario {
     Scenario::load(&file).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Every scenario file of this repository, by name.
+/// Every scenario file of this repository that has a machine, by name.
 pub fn scenario_names() -> Vec<String> {
     let folder = workspace().join("scenarios");
     let files = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut names: Vec<String> = files
         .map(|file| file.expect("a readable folder").path())
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .filter(|path| !std::fs::read_to_string(path).is_ok_and(|text| hil_sim::planar_arm::is_planar_arm(&text)))
         .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
         .collect();
     names.sort();

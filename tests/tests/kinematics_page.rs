@@ -100,6 +100,7 @@ fn every_numbered_equation_stands_in_its_table_once() {
         ("### Hareesha and Umesh 2015", 21),
         ("### Frankel 2003, reverse displacement", 24),
         ("### Frankel 2003, joint angles to cylinders", 18),
+        ("### Park et al. 2008", 18),
     ];
     for (heading, last) in tables {
         let found: Vec<u32> = rows(heading).iter().flat_map(|cells| numbers(cells[0])).collect();

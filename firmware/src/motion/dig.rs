@@ -3,11 +3,10 @@
 use kinematics_core::{Cylinders, Machine};
 
 use super::Wanted;
-use super::creep::Creep;
+use super::tracker::{Tracker, for_each};
 use crate::TICKS_PER_S;
 use crate::dig::Dig;
 use crate::fault::Fault;
-use crate::io::Speeds;
 use crate::parameters::MotionParameters;
 
 #[derive(Clone, Copy, Debug)]
@@ -28,20 +27,8 @@ pub(super) struct DigFollower {
     dig: Dig<f32>,
     dig_ticks: u32,
     preview_ticks: u32,
-    gain_per_s: f32,
-    smallest_speed_mps: f32,
-    start_tolerance_m: f32,
-    following_error_m: f32,
     mode: Mode,
-    creep: [Creep; 3],
-}
-
-fn for_each(a: Cylinders<f32>, b: Cylinders<f32>, f: impl Fn(f32, f32) -> f32) -> Cylinders<f32> {
-    Cylinders { boom: f(a.boom, b.boom), arm: f(a.arm, b.arm), bucket: f(a.bucket, b.bucket) }
-}
-
-fn all_within(c: Cylinders<f32>, limit: f32) -> bool {
-    [c.boom, c.arm, c.bucket].into_iter().all(|x| x >= -limit && x <= limit)
+    tracker: Tracker,
 }
 
 impl DigFollower {
@@ -50,19 +37,15 @@ impl DigFollower {
             dig,
             dig_ticks: dig.ticks(),
             preview_ticks: (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32,
-            gain_per_s: p.gain_per_s,
-            smallest_speed_mps: p.smallest_speed_mps,
-            start_tolerance_m: p.start_tolerance_m,
-            following_error_m: p.following_error_m,
             mode: Mode::Hold,
-            creep: [Creep::default(); 3],
+            tracker: Tracker::new(p),
         }
     }
 
     /// Back to holding: the next dig starts over.
     pub(super) fn reset(&mut self) {
         self.mode = Mode::Hold;
-        self.creep = [Creep::default(); 3];
+        self.tracker.reset();
     }
 
     /// Speeds for this tick of the dig.
@@ -72,9 +55,7 @@ impl DigFollower {
             Mode::Done => Ok(hold),
             Mode::Hold => {
                 let start = self.reference(machine, 0)?;
-                if !all_within(for_each(start, *lengths, |a, b| a - b), self.start_tolerance_m) {
-                    return Err(Fault::NotAtStart);
-                }
+                self.tracker.check_start(start, lengths)?;
                 self.step(machine, 0, start, lengths)
             }
             Mode::Dig { elapsed, .. } if elapsed >= self.dig_ticks + self.preview_ticks => {
@@ -98,20 +79,8 @@ impl DigFollower {
         let next_ahead = self.reference(machine, elapsed + 1)?;
         self.mode = Mode::Dig { elapsed: elapsed + 1, ahead: next_ahead };
 
-        let error = for_each(reference, *lengths, |wanted, is| wanted - is);
-        if !all_within(error, self.following_error_m) {
-            return Err(Fault::FollowingError);
-        }
         let feed_forward = for_each(next_ahead, ahead, |next, now| (next - now) * TICKS_PER_S as f32);
-        let asked = for_each(feed_forward, error, |speed, error| speed + self.gain_per_s * error);
-        let [boom, arm, bucket] = &mut self.creep;
-        let smallest = self.smallest_speed_mps;
-        let speeds = Speeds {
-            swing: 0.0,
-            boom: boom.pass(asked.boom, smallest),
-            arm: arm.pass(asked.arm, smallest),
-            bucket: bucket.pass(asked.bucket, smallest),
-        };
+        let speeds = self.tracker.speeds(feed_forward, reference, lengths)?;
         Ok(Wanted { speeds, reference, dig_tick: dig_tick + 1 })
     }
 

@@ -1,19 +1,26 @@
-//! Fourth stage: what the operator wants → actuator speeds. One file a mode: [`dig`] follows a trajectory, [`levers`] obeys.
+//! Fourth stage: what the operator wants → actuator speeds. One file a mode: `dig` follows a trajectory, `planned` a move, `reach` goes to
+//! a target past obstacles, `levers` obeys.
 
 mod creep;
 mod dig;
 mod levers;
+mod planned;
+mod reach;
+mod tracker;
 
-use kinematics_core::{Cylinders, Machine};
+use kinematics_core::{Cylinders, Machine, PinGeometry, Pose};
 
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
-use crate::parameters::{MotionParameters, ValveDirection};
+use crate::moves::Move;
+use crate::parameters::{ParameterError, Parameters};
 
 use dig::DigFollower;
 use levers::Levers;
+use planned::MoveFollower;
+use reach::ReachFollower;
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +29,7 @@ pub struct Wanted {
     pub speeds: Speeds,
     /// Where the cylinders should be this tick, m.
     pub reference: Cylinders<f32>,
-    /// 1 + the dig's tick, 0 when not digging.
+    /// 1 + the dig's or move's tick, 0 when following neither.
     pub dig_tick: u32,
 }
 
@@ -34,21 +41,40 @@ impl Wanted {
 }
 
 /// The motion stage.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Motion {
     dig: Option<DigFollower>,
+    planned: Option<MoveFollower>,
     levers: Levers,
+    reach: Option<ReachFollower>,
     /// The request of the last tick; another one starts over.
     request: Request,
 }
 
 impl Motion {
-    pub(crate) fn new(p: &MotionParameters, valves: &[[ValveDirection; 2]; 4], dig: Option<Dig<f32>>) -> Self {
-        Self {
-            dig: dig.map(|dig| DigFollower::new(p, dig)),
-            levers: Levers::new(valves, p.smallest_speed_mps),
+    /// Of validated parameters.
+    ///
+    /// # Errors
+    /// What planning past obstacles lacks.
+    pub(crate) fn new(
+        p: &Parameters,
+        machine: &Machine<f32>,
+        dig: Option<Dig<f32>>,
+        planned: Option<&Move>,
+    ) -> Result<Self, ParameterError> {
+        let (valves, smallest) = (&p.valves, p.motion.smallest_speed_mps);
+        let geometry: &PinGeometry = &p.geometry;
+        let reach = match &p.reach {
+            Some(reach) => Some(ReachFollower::new(reach, geometry, machine, valves, &p.motion)?),
+            None => None,
+        };
+        Ok(Self {
+            dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
+            planned: planned.map(|planned| MoveFollower::new(&p.motion, planned)),
+            levers: Levers::new(valves, smallest),
+            reach,
             request: Request::Neutral,
-        }
+        })
     }
 
     /// Back to holding: whatever is asked for next starts over.
@@ -56,6 +82,12 @@ impl Motion {
         self.request = Request::Neutral;
         if let Some(dig) = &mut self.dig {
             dig.reset();
+        }
+        if let Some(planned) = &mut self.planned {
+            planned.reset();
+        }
+        if let Some(reach) = &mut self.reach {
+            reach.reset();
         }
     }
 
@@ -68,6 +100,7 @@ impl Motion {
         machine: &Machine<f32>,
         running: bool,
         intent: &Intent,
+        pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         if !running || intent.request != self.request {
@@ -80,6 +113,8 @@ impl Motion {
         match intent.request {
             Request::Neutral => Ok(Wanted::hold(lengths)),
             Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
+            Request::Move => self.planned.as_mut().ok_or(Fault::NotConfigured)?.follow(lengths),
+            Request::Reach => self.reach.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, pose, lengths),
             Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
         }
     }

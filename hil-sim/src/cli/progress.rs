@@ -14,6 +14,8 @@ pub(crate) struct Progress {
     bar: ProgressBar,
     terminal: bool,
     last: Instant,
+    steps: u64,
+    done: u64,
     scale: f64,
     unit: &'static str,
 }
@@ -28,7 +30,7 @@ impl Progress {
                 .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
         bar.set_message(what.to_owned());
-        Self { what: what.to_owned(), bar, terminal, last: Instant::now(), scale: per_unit, unit }
+        Self { what: what.to_owned(), bar, terminal, last: Instant::now(), steps, done: 0, scale: per_unit, unit }
     }
 
     /// `done` of `all` steps are done.
@@ -42,6 +44,17 @@ impl Progress {
         } else if self.last.elapsed() >= PAUSE {
             self.last = Instant::now();
             let (is, of) = (f64::from(done) / self.scale, f64::from(all) / self.scale);
+            eprintln!("{}: {is:.1} of {of:.1} {}", self.what, self.unit);
+        }
+    }
+
+    /// One more step, a long one, is done.
+    pub(crate) fn step(&mut self) {
+        self.done += 1;
+        self.bar.set_position(self.done);
+        if !self.terminal && self.last.elapsed() >= PAUSE {
+            self.last = Instant::now();
+            let (is, of) = (self.done as f64 / self.scale, self.steps as f64 / self.scale);
             eprintln!("{}: {is:.1} of {of:.1} {}", self.what, self.unit);
         }
     }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
+use super::planar_arm;
 use super::print;
 use super::progress::Progress;
 use crate::place::{Emulator, Host, Image, PlaceError};
@@ -89,6 +90,11 @@ fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Failure {
 }
 
 fn scenario(args: &RunArgs) -> Result<Outcome, Failure> {
+    let foreign = if args.on == On::Emulator { Some("--on emulator") } else { args.draw_only.then_some("--draw-only") };
+    let wanted = planar_arm::Wanted { foreign, report: args.report.as_deref(), json: args.json.as_deref() };
+    if let Some(done) = planar_arm::run(&args.scenario, &wanted) {
+        return done.map(|()| Outcome::Done).map_err(|(status, error)| Failure { status, error: error.into() });
+    }
     let scenario = Scenario::load(&args.scenario)?;
     let on = if args.on == On::Host { "host" } else { "emulator" };
     let folder = args.report.clone().unwrap_or_else(|| Path::new("report").join(&scenario.name));

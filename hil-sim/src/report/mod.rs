@@ -12,7 +12,9 @@ mod dig;
 mod figures;
 mod html;
 mod machine;
+mod planar_arm;
 mod run;
+mod scene;
 mod series;
 mod table;
 #[cfg(test)]
@@ -20,7 +22,9 @@ mod tests;
 
 pub use dig::draw_only;
 pub use machine::write_machine;
+pub use planar_arm::{planar_arm_table, write_planar_arm};
 pub use run::write;
+pub use scene::write_scene;
 pub use table::table;
 
 /// Nobody shall take a report for proof of a machine.

@@ -9,13 +9,13 @@ use kinematics_core::Machine;
 
 use super::csv::{lengths, write_log};
 use super::figures::linkage::Motion;
-use super::figures::{self, Figure, linkage, svg, timing, tracking, valves};
+use super::figures::{self, Figure, avoidance, linkage, svg, timing, tracking, valves};
 use super::html::Page;
 use super::series::{Point, over_time};
-use crate::run::{Log, Summary};
+use crate::run::{Log, ReachSeen, Summary};
 use crate::scenario::Scenario;
 
-/// Writes `report.html`, `linkage.svg` (its first figure alone), `log.csv` and `summary.json` into `folder`.
+/// Writes `report.html`, `linkage.svg` (that figure alone; with a target also `avoidance.svg`), `log.csv` and `summary.json` into `folder`.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
@@ -44,12 +44,22 @@ fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static st
     let until_s = scenario.duration_s;
     // Loading the scenario has checked the geometry.
     let machine = Machine::new(&scenario.machine.geometry).map_err(io::Error::other)?;
-    let mut all = vec![
+    let mut all = Vec::new();
+    if let Some(seen) = ReachSeen::of(scenario, log) {
+        let drawn = avoidance::Drawn {
+            chain: machine.chain(),
+            samples: &seen.samples,
+            obstacles: &seen.obstacles,
+            target: seen.target,
+        };
+        all.push((Some("avoidance.svg"), avoidance::figure(&drawn)));
+    }
+    all.extend([
         (Some("linkage.svg"), linkage_figure(scenario, &machine, log)),
         (None, lengths_figure(scenario, log)),
         (None, tracking::figure(log, until_s)),
         (None, valves::figure(log, until_s)),
-    ];
+    ]);
     all.extend(timing::figure(log, until_s).map(|figure| (None, figure)));
     Ok(all)
 }
@@ -127,6 +137,8 @@ fn facts<'a>(scenario: &Scenario, summary: &Summary) -> Vec<(&'a str, String)> {
     facts.extend(summary.dig_completed.map(|completed| ("Dig completed", yes_no(completed))));
     facts.extend(summary.tip_error_rms_m.map(|m| ("Tip error while digging, RMS", millimetres(m))));
     facts.extend(summary.tip_error_max_m.map(|m| ("Tip error while digging, largest", millimetres(m))));
+    facts.extend(summary.target_error_m.map(|m| ("Tip from the target at the end", millimetres(m))));
+    facts.extend(summary.smallest_clearance_m.map(|m| ("Smallest clearance to the obstacles", millimetres(m))));
     facts.extend(summary.real_time_factor.map(|f| ("Speed of the simulation", format!("{f:.0} × real time"))));
     facts.extend(summary.output_hash.clone().map(|hash| ("Hash of all outputs", hash)));
     if let Some(e) = &summary.emulator {

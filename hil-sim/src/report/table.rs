@@ -22,6 +22,10 @@ pub fn table(summary: &Summary, folder: &Path) -> String {
     if let (Some(rms), Some(max)) = (summary.tip_error_rms_m, summary.tip_error_max_m) {
         row("tip error", format!("{:.1} mm RMS, {:.1} mm max", rms * 1e3, max * 1e3));
     }
+    if let (Some(error), Some(clearance)) = (summary.target_error_m, summary.smallest_clearance_m) {
+        row("tip from the target", format!("{:.1} mm at the end", error * 1e3));
+        row("smallest clearance", format!("{:.1} mm", clearance * 1e3));
+    }
     if let Some(factor) = summary.real_time_factor {
         row("speed", format!("{factor:.0} × real time"));
     }

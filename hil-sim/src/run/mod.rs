@@ -2,6 +2,7 @@
 
 mod log;
 mod operator;
+mod reach;
 mod summary;
 
 use std::time::Instant;
@@ -9,7 +10,7 @@ use std::time::Instant;
 use crc::{CRC_64_XZ, Crc};
 use firmware::dig::Dig;
 use firmware::{Outputs, TICKS_PER_S};
-use kinematics_core::{Cylinders, Machine, Pose};
+use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor};
 
 use crate::place::{Place, PlaceError};
 use crate::plant::sensors::{Noise, code};
@@ -19,6 +20,7 @@ use crate::travel::{Violation, violations};
 
 pub use log::{FaultSeen, Log, Row, StopHit};
 pub use operator::Operator;
+pub use reach::ReachSeen;
 pub use summary::{EmulatorFigures, InstructionCounts, Outcome, Summary};
 
 /// A run that is under way.
@@ -41,6 +43,12 @@ pub enum RunError {
     /// The operator asks for a dig that the parameters do not hold.
     #[error("`parameters.dig`: the operator asks for a dig, but there is none")]
     NoDig,
+    /// The operator asks for a move that the parameters do not hold.
+    #[error("`parameters.planned_move`: the operator asks for a move, but there is none")]
+    NoMove,
+    /// The machine cannot stand at the move's start.
+    #[error("`move`: at the start: {0}")]
+    MoveStart(kinematics_core::PoseError<f64>),
     /// The place is lost or cannot be built.
     #[error(transparent)]
     Place(#[from] PlaceError),
@@ -123,11 +131,22 @@ impl<'a> Run<'a> {
         let pose = swing.and_then(|swing| self.machine.cylinders_to_tip(&lengths, swing).ok());
         let tip = |pose: Pose<f64>| [pose.plane.reach, pose.plane.height];
         // While the feed-forward waits out the dead time, tick 1 stands still: nothing is followed yet.
-        let reference = self.dig.as_ref().filter(|_| outputs.dig_tick > 1).map(|dig| {
-            let tip = dig.tip(f64::from(outputs.dig_tick - 1) / f64::from(TICKS_PER_S));
-            [tip.reach, tip.height]
-        });
+        let reference = if outputs.dig_tick > 1 { self.reference(outputs) } else { None };
         Row { time_s, lengths, swing, tip: pose.map(tip), joints: pose.map(|p| p.joints), reference, outputs: *outputs }
+    }
+}
+
+impl Run<'_> {
+    /// Where the tip should be, m: the dig's, or that of the move's reference lengths.
+    fn reference(&self, outputs: &Outputs) -> Option<[f64; 2]> {
+        if let Some(dig) = &self.dig {
+            let tip = dig.tip(f64::from(outputs.dig_tick - 1) / f64::from(TICKS_PER_S));
+            return Some([tip.reach, tip.height]);
+        }
+        let Cylinders { boom, arm, bucket } = outputs.reference;
+        let lengths = Cylinders { boom: boom.into(), arm: arm.into(), bucket: bucket.into() };
+        let pose = self.machine.cylinders_to_tip(&lengths, Rotor::IDENTITY).ok()?;
+        Some([pose.plane.reach, pose.plane.height])
     }
 }
 
@@ -139,9 +158,16 @@ fn start(
     swing: SwingDrive,
 ) -> Result<[f64; 4], RunError> {
     match (&scenario.task, dig) {
-        (Task::Levers { start, .. }, _) => {
+        (Task::Levers { start, .. } | Task::Reach { start }, _) => {
             let swing = swing.position(start.swing_deg.to_radians()).map_err(RunError::Swing)?;
             Ok([swing, start.boom_m, start.arm_m, start.bucket_m])
+        }
+        (Task::Move, _) => {
+            let planned = scenario.parameters.planned_move.as_ref().ok_or(RunError::NoMove)?;
+            let [reach, height] = planned.start_m;
+            let tip = PlaneTip { reach, height, pitch: Rotor::from_degrees(planned.start_pitch_deg) };
+            let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&tip).map_err(RunError::MoveStart)?;
+            Ok([swing.position(0.0).map_err(RunError::Swing)?, boom, arm, bucket])
         }
         (Task::Dig, dig) => {
             let dig = dig.ok_or(RunError::NoDig)?;

@@ -95,6 +95,12 @@ pub struct Summary {
     pub tip_error_rms_m: Option<f64>,
     /// Largest of the same, m.
     pub tip_error_max_m: Option<f64>,
+    /// How far the true tip is from the target at the end, m; null where none is to be reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_error_m: Option<f64>,
+    /// Smallest distance between the true hull and the obstacles, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_clearance_m: Option<f64>,
     /// Simulated time over wall clock.
     pub real_time_factor: Option<f64>,
     /// Why the dig was refused before motion.
@@ -153,6 +159,8 @@ impl Summary {
             dig_completed: (scenario.task == Task::Dig).then_some(false),
             tip_error_rms_m: None,
             tip_error_max_m: None,
+            target_error_m: None,
+            smallest_clearance_m: None,
             real_time_factor: None,
             refused: Some(refused),
             faults: None,
@@ -167,6 +175,7 @@ impl Summary {
         let square_sum: f64 = errors.iter().map(|e| e * e).sum();
         let faults = log.faults.iter();
         let hits = log.stop_hits.iter();
+        let reach = super::ReachSeen::of(scenario, log);
         Self {
             ticks: log.rows.len(),
             output_hash: Some(format!("{:016x}", log.output_hash)),
@@ -176,6 +185,8 @@ impl Summary {
             }),
             tip_error_rms_m: (!errors.is_empty()).then(|| libm::sqrt(square_sum / errors.len() as f64)),
             tip_error_max_m: errors.iter().copied().max_by(f64::total_cmp),
+            target_error_m: reach.as_ref().map(|reach| reach.target_error_m),
+            smallest_clearance_m: reach.as_ref().map(|reach| reach.smallest_clearance_m),
             real_time_factor: Some(scenario.duration_s / log.wall.as_secs_f64()),
             refused: None,
             faults: Some(

@@ -2,8 +2,14 @@
 
 use firmware::Parameters;
 use firmware::dig::DigParameters;
-use firmware::parameters::{Coil, MotionParameters, PositionSensor, Supply, SwingSensor, ValveDirection};
+use firmware::moves::{MoveParameters, Pitch};
+use firmware::parameters::{
+    Coil, MotionParameters, PositionSensor, ReachParameters, Supply, SwingSensor, ValveDirection,
+};
 use kinematics_core::geometry::Stroke;
+use kinematics_core::planning::effort::Piston;
+use kinematics_core::planning::hull::Sphere;
+use kinematics_core::planning::reach::Target;
 use kinematics_core::{Machine, PinGeometry, Rotor};
 
 use super::check::within;
@@ -50,16 +56,75 @@ fn dig(file: &file::Dig) -> DigParameters {
     dig
 }
 
+fn planned_move(m: &file::PlannedMove, plant: &[ActuatorModel; 4]) -> MoveParameters {
+    let [_, cylinders @ ..] = plant;
+    let piston = |bore_m, rod_m, count| Piston { bore_m, rod_m, count }.areas_m2();
+    MoveParameters {
+        start_m: [m.start_x_m, m.start_z_m],
+        start_pitch_deg: m.start_pitch_deg,
+        target_m: [m.target_x_m, m.target_z_m],
+        pitch: match (m.pitch, m.lower_deg, m.upper_deg) {
+            (file::PitchRule::Bounded, Some(lower_deg), Some(upper_deg)) => Pitch::Bounded { lower_deg, upper_deg },
+            (file::PitchRule::Fixed, ..) => Pitch::Fixed,
+            _ => Pitch::Free,
+        },
+        turn_per_knot_deg: m.turn_per_knot_deg,
+        weights: [1.0; 3],
+        speed_mps: cylinders.map(|model| model.full_speed.map(|speed| m.speed_share * speed)),
+        acceleration_mps2: [m.acceleration_mps2; 3],
+        jerk_mps3: [m.jerk_mps3; 3],
+        areas_m2: [
+            piston(m.boom_bore_m, m.boom_rod_m, m.boom_cylinders),
+            piston(m.arm_bore_m, m.arm_rod_m, 1),
+            piston(m.bucket_bore_m, m.bucket_rod_m, 1),
+        ],
+        flow_m3ps: m.flow_lpm / 60e3,
+    }
+}
+
+fn reach(reach: &file::Reach, obstacles: &[file::Obstacle]) -> Result<ReachParameters, String> {
+    let sphere = |o: &file::Obstacle| Sphere { x: o.x_m, y: o.y_m, z: o.z_m, radius: o.radius_m };
+    if obstacles.len() > 2 {
+        return Err(format!("`obstacle`: {} of them, but the controller keeps away from at most 2", obstacles.len()));
+    }
+    Ok(ReachParameters {
+        target: Target { x: reach.target_x_m, y: reach.target_y_m, z: reach.target_z_m },
+        tolerance_m: reach.tolerance_m,
+        obstacles: [0, 1].map(|i| obstacles.get(i).map(sphere)),
+        speeds_rad_s: [reach.swing_rad_s, reach.boom_rad_s, reach.arm_rad_s, reach.bucket_rad_s],
+    })
+}
+
 /// The one task of the file.
 fn task(file: &mut ScenarioFile) -> Result<Task, String> {
     let moves = std::mem::take(&mut file.lever);
+    if file.planned_move.is_some() {
+        let alone = file.dig.is_none() && moves.is_empty() && file.start.is_none();
+        return if alone {
+            Ok(Task::Move)
+        } else {
+            Err("`dig`, `lever` and `start` must be left out with `move`".to_owned())
+        };
+    }
+    if file.reach.is_some() {
+        return match (&file.dig, moves.is_empty(), file.start) {
+            (None, true, Some(start)) => Ok(Task::Reach { start }),
+            (None, true, None) => Err("`start` is missing: where the machine stands before it reaches".to_owned()),
+            _ => Err("`reach` stands alone: without `dig` and `lever`".to_owned()),
+        };
+    }
+    if !file.obstacle.is_empty() {
+        return Err("`obstacle` is for `reach`, which is missing".to_owned());
+    }
     match (&file.dig, moves.is_empty(), file.start) {
         (Some(_), true, None) => Ok(Task::Dig),
         (Some(_), true, Some(_)) => Err("`start` must be left out with `dig`, which says where it starts".to_owned()),
         (None, false, Some(start)) => Ok(Task::Levers { start, moves }),
         (None, false, None) => Err("`start` is missing: where the machine stands before the levers move".to_owned()),
         (Some(_), false, _) => Err("either `dig` or `lever`, not both".to_owned()),
-        (None, true, _) => Err("one of `dig` and `lever` is needed: what the operator does".to_owned()),
+        (None, true, _) => {
+            Err("one of `dig`, `lever`, `move` and `reach` is needed: what the operator does".to_owned())
+        }
     }
 }
 
@@ -105,7 +170,7 @@ fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
 pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
     let g = &machine.geometry;
     let task = task(&mut file)?;
-    if let Task::Levers { start, .. } = &task {
+    if let Task::Levers { start, .. } | Task::Reach { start } = &task {
         start_ranges(start, g)?;
     }
     let p = &file.plant;
@@ -137,6 +202,8 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         },
         dig: file.dig.as_ref().map(dig),
         fence: file.fence.as_ref().map(|fence| fence.parameters(&machine, p.dead_time_s, p.spool_lag_s)).transpose()?,
+        planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
+        reach: file.reach.as_ref().map(|reach| self::reach(reach, &file.obstacle)).transpose()?,
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {

@@ -1,6 +1,6 @@
 //! Every number of a scenario within its range, by name.
 
-use super::file::{Dig, ScenarioFile};
+use super::file::{Dig, PitchRule, PlannedMove, ScenarioFile};
 
 /// The name becomes the report's folder.
 fn name(name: &str) -> Result<(), String> {
@@ -66,6 +66,9 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
     if let Some(dig) = &s.dig {
         dig_ranges(dig)?;
     }
+    if let Some(planned) = &s.planned_move {
+        move_ranges(planned)?;
+    }
     for (i, lever) in s.lever.iter().enumerate() {
         lever.check(s.duration_s).map_err(|what| format!("`lever[{i}]`: {what}"))?;
     }
@@ -96,4 +99,39 @@ fn dig_ranges(d: &Dig) -> Result<(), String> {
         ("dig.plunge_until_s", d.plunge_until_s, [0.05, d.scoop_until_s - 0.01]),
         ("dig.reach_until_s", d.reach_until_s, [0.01, d.plunge_until_s - 0.01]),
     ])
+}
+
+fn move_ranges(m: &PlannedMove) -> Result<(), String> {
+    let far = [-50.0, 50.0];
+    let bore = [0.01, 1.0];
+    within(&[
+        ("move.start_x_m", m.start_x_m, far),
+        ("move.start_z_m", m.start_z_m, far),
+        ("move.start_pitch_deg", m.start_pitch_deg, [-720.0, 720.0]),
+        ("move.target_x_m", m.target_x_m, far),
+        ("move.target_z_m", m.target_z_m, far),
+        ("move.turn_per_knot_deg", m.turn_per_knot_deg, [0.01, 90.0]),
+        ("move.speed_share", m.speed_share, [0.01, 1.0]),
+        ("move.acceleration_mps2", m.acceleration_mps2, [0.01, 100.0]),
+        ("move.jerk_mps3", m.jerk_mps3, [0.01, 1000.0]),
+        ("move.boom_bore_m", m.boom_bore_m, bore),
+        ("move.boom_rod_m", m.boom_rod_m, [0.0, m.boom_bore_m]),
+        ("move.boom_cylinders", f64::from(m.boom_cylinders), [1.0, 4.0]),
+        ("move.arm_bore_m", m.arm_bore_m, bore),
+        ("move.arm_rod_m", m.arm_rod_m, [0.0, m.arm_bore_m]),
+        ("move.bucket_bore_m", m.bucket_bore_m, bore),
+        ("move.bucket_rod_m", m.bucket_rod_m, [0.0, m.bucket_bore_m]),
+        ("move.flow_lpm", m.flow_lpm, [0.1, 10_000.0]),
+    ])?;
+    match (m.pitch, m.lower_deg, m.upper_deg) {
+        (PitchRule::Bounded, Some(lower), Some(upper)) => within(&[
+            ("move.lower_deg", lower, [-720.0, m.start_pitch_deg]),
+            ("move.upper_deg", upper, [m.start_pitch_deg, 720.0]),
+        ]),
+        (PitchRule::Bounded, ..) => {
+            Err("`move.lower_deg` and `move.upper_deg` are needed with `pitch = \"bounded\"`".to_owned())
+        }
+        (_, None, None) => Ok(()),
+        _ => Err("`move.lower_deg` and `move.upper_deg` go with `pitch = \"bounded\"` alone".to_owned()),
+    }
 }

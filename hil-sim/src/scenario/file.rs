@@ -7,8 +7,11 @@ use super::fence::FenceTable;
 use super::task::{LeverMove, Start};
 use crate::toml_text::{Tag, strictly};
 
-const TAGS: [Tag; 2] =
-    [("fence.guards", "`\"linkage\"` or `\"tip\"`"), ("dig.reading", "`\"as_meant\"` or `\"as_published\"`")];
+const TAGS: [Tag; 3] = [
+    ("fence.guards", "`\"linkage\"` or `\"tip\"`"),
+    ("dig.reading", "`\"as_meant\"` or `\"as_published\"`"),
+    ("move.pitch", "`\"free\"`, `\"fixed\"` or `\"bounded\"`"),
+];
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,9 +22,14 @@ pub(super) struct ScenarioFile {
     pub(super) duration_s: f64,
     pub(super) operator: Operator,
     pub(super) dig: Option<Dig>,
+    #[serde(rename = "move")]
+    pub(super) planned_move: Option<PlannedMove>,
     pub(super) start: Option<Start>,
     #[serde(default)]
     pub(super) lever: Vec<LeverMove>,
+    pub(super) reach: Option<Reach>,
+    #[serde(default)]
+    pub(super) obstacle: Vec<Obstacle>,
     pub(super) motion: Motion,
     pub(super) plant: Plant,
     pub(super) fence: Option<FenceTable>,
@@ -34,6 +42,30 @@ pub(super) struct ScenarioFile {
 pub(super) struct Operator {
     pub(super) enable_s: f64,
     pub(super) begin_s: f64,
+}
+
+/// Where the tip shall go, and how fast the joints may move.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Reach {
+    pub(super) target_x_m: f64,
+    pub(super) target_y_m: f64,
+    pub(super) target_z_m: f64,
+    pub(super) tolerance_m: f64,
+    pub(super) swing_rad_s: f64,
+    pub(super) boom_rad_s: f64,
+    pub(super) arm_rad_s: f64,
+    pub(super) bucket_rad_s: f64,
+}
+
+/// A sphere to keep away from.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Obstacle {
+    pub(super) x_m: f64,
+    pub(super) y_m: f64,
+    pub(super) z_m: f64,
+    pub(super) radius_m: f64,
 }
 
 /// How to read the paper's program.
@@ -65,6 +97,44 @@ pub(super) struct Dig {
     pub(super) reach_until_s: f64,
     pub(super) plunge_until_s: f64,
     pub(super) scoop_until_s: f64,
+}
+
+/// What the bucket may do during a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum PitchRule {
+    /// Anything.
+    Free,
+    /// Keep the start's pitch.
+    Fixed,
+    /// Between `lower_deg` and `upper_deg`.
+    Bounded,
+}
+
+/// A straight move with the least cylinder travel.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlannedMove {
+    pub(super) start_x_m: f64,
+    pub(super) start_z_m: f64,
+    pub(super) start_pitch_deg: f64,
+    pub(super) target_x_m: f64,
+    pub(super) target_z_m: f64,
+    pub(super) pitch: PitchRule,
+    pub(super) lower_deg: Option<f64>,
+    pub(super) upper_deg: Option<f64>,
+    pub(super) turn_per_knot_deg: f64,
+    pub(super) speed_share: f64,
+    pub(super) acceleration_mps2: f64,
+    pub(super) jerk_mps3: f64,
+    pub(super) boom_bore_m: f64,
+    pub(super) boom_rod_m: f64,
+    pub(super) boom_cylinders: u8,
+    pub(super) arm_bore_m: f64,
+    pub(super) arm_rod_m: f64,
+    pub(super) bucket_bore_m: f64,
+    pub(super) bucket_rod_m: f64,
+    pub(super) flow_lpm: f64,
 }
 
 #[derive(Clone, Debug, Deserialize)]

@@ -8,12 +8,19 @@ use serde::Deserialize;
 pub enum Task {
     /// Asks for the dig of the parameters; the machine stands at its start.
     Dig,
+    /// Asks for the planned move of the parameters; the machine stands at its start.
+    Move,
     /// Moves the levers.
     Levers {
         /// Where the machine stands at first.
         start: Start,
         /// The moves; where several are under way their deflections add up.
         moves: Vec<LeverMove>,
+    },
+    /// Asks for the target of the parameters.
+    Reach {
+        /// Where the machine stands at first.
+        start: Start,
     },
 }
 
@@ -68,7 +75,9 @@ impl Task {
     pub fn request(&self) -> Request {
         match self {
             Self::Dig => Request::Dig,
+            Self::Move => Request::Move,
             Self::Levers { .. } => Request::Levers,
+            Self::Reach { .. } => Request::Reach,
         }
     }
 

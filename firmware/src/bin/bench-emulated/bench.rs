@@ -1,5 +1,6 @@
 //! Each map behind a call that is not inlined, its input unknown to the compiler, over poses all along the strokes.
 
+use core::cell::RefCell;
 use core::fmt::Write;
 use core::hint::black_box;
 
@@ -10,6 +11,15 @@ use kinematics_core::cylinder_jacobian::CylinderJacobian;
 use kinematics_core::isotropy::singularity_distance;
 use kinematics_core::jacobian::Twist;
 use kinematics_core::joint_range::JointRange;
+use kinematics_core::planning::avoid::{Aim, Avoid, AvoidParameters, Step};
+use kinematics_core::planning::cylinder_path::{CylinderPath, PathPoint};
+use kinematics_core::planning::effort::Effort;
+use kinematics_core::planning::hull::{Flesh, Hull, Sphere};
+use kinematics_core::planning::move_limits::{Limits, MoveLimits};
+use kinematics_core::planning::pitch_plan::{PathMove, PitchPlanner};
+use kinematics_core::planning::pitch_rule::PitchRule;
+use kinematics_core::planning::time_scaling::{Pace, Progress, TimeScaling};
+use kinematics_core::planning::tip_path::TipPath;
 use kinematics_core::rates::{CylinderRates, MomentArms};
 use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
 use kinematics_core::{Cylinders, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
@@ -88,6 +98,63 @@ type Motion = ([Rotor<f32>; 3], Vec2<f32>, [f32; 3]);
 #[inline(never)]
 fn redundancy_3(redundancy: &Redundancy<f32, 3>, (joints, velocity, wish): &Motion) -> Rates<f32, 3> {
     redundancy.rates(joints, *velocity, wish)
+}
+
+/// Knots of the planning rows' path, as of the controller's moves.
+const KNOTS: usize = 17;
+
+#[inline(never)]
+fn time_scaling_step(scaling: &TimeScaling<f32>, pace: &mut Pace<f32>) -> Progress<f32> {
+    scaling.advance(pace, 1.0)
+}
+
+#[inline(never)]
+fn cylinder_path_at(path: &CylinderPath<f32, KNOTS>, s: f32) -> PathPoint<f32> {
+    path.at(s)
+}
+
+#[inline(never)]
+fn planning_step(planner: &mut PitchPlanner<f32, KNOTS>, machine: &Machine<f32>) -> bool {
+    planner.step(machine, |_| true).is_ok()
+}
+
+/// Following a planned move, and planning it: a knot a step, here those of the first passes.
+fn planning(out: &mut Out, stopwatch: &Stopwatch, machine: &Machine<f32>) -> Option<()> {
+    let limits = Limits::new(&MoveLimits {
+        speed_mps: [[0.2; 2]; 3],
+        acceleration_mps2: [0.5; 3],
+        jerk_mps3: [5.0; 3],
+        areas_m2: [[0.005, 0.003]; 3],
+        flow_m3ps: 0.001,
+    })
+    .ok()?;
+    let path = TipPath::line(Vec2::new(2.6, -0.5), Vec2::new(1.8, -0.5));
+    let request = PathMove { path, start_pitch_turns: -0.3, rule: PitchRule::Free, turn_per_knot: 0.03 };
+    let effort = Effort::travel([1.0; 3]).ok()?;
+    let planner = RefCell::new(PitchPlanner::new(machine, &request, effort, |_| true).ok()?);
+    let plan = |_: &f32| planning_step(&mut planner.borrow_mut(), machine);
+    row(out, stopwatch, "planning_step", |t| t, plan);
+
+    let at =
+        |share: f32| Cylinders { boom: 1.0 + 0.2 * share, arm: 1.2 + 0.3 * share * share, bucket: 1.2 - 0.3 * share };
+    let path = CylinderPath::new(&core::array::from_fn::<_, KNOTS, _>(|i| at(i as f32 / 16.0)), &limits)?;
+    let scaling = TimeScaling::new(&path, &limits, 0.001).ok()?;
+    let pace = RefCell::new(Pace::start());
+    // Every twentieth tick from start to end.
+    let run = |_: f32| {
+        for _ in 0..19 {
+            scaling.advance(&mut pace.borrow_mut(), 1.0);
+        }
+    };
+    row(out, stopwatch, "time_scaling_step", run, |()| time_scaling_step(&scaling, &mut pace.borrow_mut()));
+    row(out, stopwatch, "cylinder_path_at", |t| t, |s| cylinder_path_at(&path, *s));
+    Some(())
+}
+
+/// One planning step with two obstacles, both close enough to be heeded.
+#[inline(never)]
+fn avoid_step_2(avoid: &Avoid<f32>, joints: &[Rotor<f32>; 4], aim: &Aim<f32>, balls: &[Sphere<f32>; 2]) -> Step<f32> {
+    avoid.step(joints, aim, balls)
 }
 
 struct Out(Link);
@@ -185,6 +252,22 @@ fn main() -> ! {
     row(&mut out, s, "singularity_distance_3", |t| chain.jacobian(&joints(t)), singularity_distance_3);
     let motion = |t: f32| (joints(t), Vec2::new(0.3, -t), [0.0, -0.1, t]);
     row(&mut out, s, "redundancy_3", motion, |j| redundancy_3(&redundancy, j));
+    if planning(&mut out, s, m).is_none() {
+        fail();
+    }
+    let reach_m = geometry.reach_m();
+    let Ok(hull) = Hull::new(&geometry, Flesh::of_reach(reach_m)) else { fail() };
+    let limits = AvoidParameters::of_reach(reach_m, [1.1, 0.45, 1.1, 1.1]);
+    let Ok(avoid) = Avoid::new(&geometry, hull, &limits) else { fail() };
+    let avoid = black_box(avoid);
+    let four = |t: f32| {
+        let [boom, arm, bucket] = joints(t);
+        [swing, boom, arm, bucket]
+    };
+    let aim = black_box(avoid.aim(&four(0.5)));
+    let balls =
+        black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
+    row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     angles(&mut out, s);
     succeed()
 }

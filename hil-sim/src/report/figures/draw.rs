@@ -43,21 +43,42 @@ type DrawError = DrawingAreaErrorKind<io::Error>;
 /// # Errors
 /// The drawing backend's.
 pub(in crate::report) fn svg(figure: &Figure) -> io::Result<String> {
+    Ok(element(figure, 0.0)?.0)
+}
+
+/// Two figures beside each other as one SVG element, under the left one's name.
+///
+/// # Errors
+/// The drawing backend's.
+pub(in crate::report) fn beside(left: &Figure, right: &Figure) -> io::Result<String> {
+    let wide = 2.0 * WIDTH;
+    let ((left_svg, left_high), (right_svg, right_high)) = (element(left, 0.0)?, element(right, WIDTH)?);
+    let height = if left_high > right_high { left_high } else { right_high };
+    Ok(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" width=\"{wide}\" height=\"{height}\" \
+         viewBox=\"0 0 {wide} {height}\">\n{left_svg}\n{right_svg}\n</svg>\n",
+        escape(left.title)
+    ))
+}
+
+/// The SVG element of a figure, `x` pixels from the left of what it stands in, and its height, pixels.
+fn element(figure: &Figure, x: f64) -> io::Result<(String, f64)> {
     let mut text = String::new();
     let height = draw(figure, &mut text).map_err(|error| io::Error::other(error.to_string()))?;
     // The backend's own opening tag knows neither a name for screen readers nor pixels of several units.
     let (_, body) = text.split_once('>').unwrap_or_default();
     let mut out = String::with_capacity(text.len() + 200);
     let (units_wide, units_high) = (units(WIDTH), units(height));
+    let place = if x > 0.0 { format!(" x=\"{x}\"") } else { String::new() };
     // Writing to a string cannot fail.
     let _ = write!(
         out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" width=\"{WIDTH}\" height=\"{height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\"{place} width=\"{WIDTH}\" height=\"{height}\" \
          viewBox=\"0 0 {units_wide} {units_high}\" stroke-linejoin=\"round\">",
         escape(figure.title)
     );
     out += body;
-    Ok(out)
+    Ok((out, height))
 }
 
 fn units(pixels: f64) -> i32 {

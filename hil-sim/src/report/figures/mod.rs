@@ -1,5 +1,6 @@
 //! Figures as data: what stands in each panel. [`draw`] alone knows how it becomes SVG.
 
+pub(super) mod avoidance;
 mod draw;
 pub(super) mod events;
 pub(super) mod lengths;
@@ -13,7 +14,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::series::{Piece, Point};
 
-pub(super) use draw::svg;
+pub(super) use draw::{beside, svg};
 
 /// Colours that stay apart for colour-blind eyes: Okabe and Ito 2008.
 pub(super) mod colours {
