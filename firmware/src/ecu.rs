@@ -122,6 +122,9 @@ impl Ecu {
         });
         if result.is_err() {
             self.motion.reset();
+            if let Some(fence) = &mut self.fence {
+                fence.reset();
+            }
         }
         result
     }

@@ -5,10 +5,25 @@ use cross_tests::sweep::Random;
 use hil_sim::fence::{Kind, campaign};
 use hil_sim::machine_file::MachineFile;
 use kinematics_core::planning::clearance::HalfSpace;
-use kinematics_core::planning::fence::{Fence, Limits, Stopping, SwingRange};
-use kinematics_core::planning::outline::{Outline, OutlineShape};
+use kinematics_core::planning::fence::{Fence, Nearby, Scene, Stopping};
+use kinematics_core::planning::limits::{Limits, SwingRange};
+use kinematics_core::planning::outline::{Outline, OutlineShape, Strip};
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Machine, Rotor};
+
+/// What passes of a wish at a place, of actuators that recede as far as told.
+fn let_through(
+    fence: &Fence<f64>,
+    strips: &[Strip<f64>],
+    (swing, transmissions): (Rotor<f64>, [f64; 4]),
+    wish: [f64; 4],
+    receding: [f64; 4],
+) -> [f64; 4] {
+    let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
+    let mut nearby = Nearby::none();
+    fence.weigh_all(strips, &Scene { swing, base, transmissions, wish, spare: [0.0; 4] }, &mut nearby);
+    fence.limit(&nearby, &wish, &receding, &[0.0; 4])
+}
 
 const STOPPING: Stopping<f64> = Stopping { deceleration: 2.0, reaction_s: 0.1, margin: 0.05 };
 
@@ -35,13 +50,13 @@ fn what_is_let_through_lies_between_nothing_and_what_was_wanted_and_keeps_every_
             let fence = Fence { limits, stopping: STOPPING, turning: STOPPING };
             let transmissions = [1.0, b, a, k];
             let wanted = [within(-1.0, 1.0), within(-0.3, 0.3), within(-0.4, 0.4), within(-0.5, 0.5)];
-            let through = fence.limit(&placed.strips, swing, &base, &transmissions, &wanted, [1.0; 4]);
-            for (let_through, wanted) in through.rates.into_iter().zip(wanted) {
+            let through = let_through(&fence, &placed.strips, (swing, transmissions), wanted, [1.0; 4]);
+            for (let_through, wanted) in through.into_iter().zip(wanted) {
                 let part = let_through / wanted;
                 assert!((0.0..=1.0).contains(&part), "{name}: {let_through} of {wanted}");
             }
-            slowed += usize::from(through.rates != wanted);
-            let rates: [f64; 4] = std::array::from_fn(|i| through.rates[i] * transmissions[i]);
+            slowed += usize::from(through != wanted);
+            let rates: [f64; 4] = std::array::from_fn(|i| through[i] * transmissions[i]);
             for space in limits.half_spaces.iter().flatten() {
                 for end in placed.strips.iter().flat_map(|strip| strip.to_half_space(&space.seen(&base, swing))) {
                     let (speed, fastest) = (end.approach_speed(&rates), STOPPING.speed(end.distance));
@@ -63,11 +78,8 @@ fn inside_a_limit_the_way_out_is_free_and_the_way_in_is_closed() {
     let mut limits = Limits::NONE;
     limits.half_spaces[0] = Some(HalfSpace { normal: [0.0, 0.0, 1.0], offset: 0.5 });
     let fence = Fence { limits, stopping: STOPPING, turning: STOPPING };
-    let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
-    let boom = |rate: f64| {
-        let wanted = [0.2, rate, 0.0, 0.0];
-        fence.limit(&placed.strips, Rotor::IDENTITY, &base, &[1.0; 4], &wanted, [1.0; 4]).rates
-    };
+    let boom =
+        |rate: f64| let_through(&fence, &placed.strips, (Rotor::IDENTITY, [1.0; 4]), [0.2, rate, 0.0, 0.0], [1.0; 4]);
     assert_eq!(boom(0.1), [0.2, 0.0, 0.0, 0.0]);
     assert_eq!(boom(-0.1), [0.2, -0.1, 0.0, 0.0]);
 }
@@ -82,11 +94,10 @@ fn an_actuator_at_its_stop_makes_up_for_no_other() {
     let mut limits = Limits::NONE;
     limits.half_spaces[0] = Some(HalfSpace { normal: [0.0, 0.0, -1.0], offset: -tip.ends[0].at.z });
     let fence = Fence { limits, stopping: STOPPING, turning: STOPPING };
-    let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
     // The arm lowers the tip as fast as the boom lifts it.
     let [per_boom, per_arm, _] = tip.ends[0].per_joint.map(|v| v.z);
     let wanted = [0.0, 0.1, -0.1 * per_boom / per_arm * 0.999, 0.0];
-    let limit = |receding| fence.limit(&[tip], Rotor::IDENTITY, &base, &[1.0; 4], &wanted, receding).rates;
+    let limit = |receding| let_through(&fence, &[tip], (Rotor::IDENTITY, [1.0; 4]), wanted, receding);
     assert_eq!(limit([1.0; 4]), wanted);
     assert_eq!(limit([1.0, 0.0, 1.0, 1.0]), [0.0, 0.1, 0.0, 0.0]);
 }

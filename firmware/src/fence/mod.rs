@@ -2,15 +2,14 @@
 //!
 //! What was commanded within the dead time, and what the spools' lag still gives, is to come whatever is decided now:
 //! [`to_come`] knows it from the valves' own model. The limits are weighed where that will have carried the machine
-//! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted.
+//! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted. One limit is
+//! weighed a tick ([`sweep`]); what is near is followed every tick.
 
 mod parameters;
+mod sweep;
 mod to_come;
 
-use kinematics_core::planning::fence as planning;
-use kinematics_core::planning::outline::Outline;
 use kinematics_core::swing::SwingCylinder;
-use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Machine, PoseError, Rotor};
 
 use crate::fault::Fault;
@@ -19,6 +18,7 @@ use crate::parameters::{ParameterError, ValveDirection};
 use crate::sensing::Sensed;
 
 pub use parameters::{BallParameters, FenceParameters, Guards, PlaneParameters, SwingRangeParameters};
+use sweep::{Ahead, Sweep};
 use to_come::ToCome;
 
 /// What the fence hands on.
@@ -26,7 +26,7 @@ use to_come::ToCome;
 pub struct Fenced {
     /// The speeds let through.
     pub speeds: Speeds,
-    /// The smallest clearance of a guarded part to a plane or ball, where everything commanded has arrived, m;
+    /// The smallest clearance of a guarded part to a plane or ball, where everything commanded has arrived, m, as weighed last;
     /// [`NO_CLEARANCE`] without any.
     pub clearance_m: f32,
 }
@@ -50,10 +50,7 @@ enum Swing {
 /// The fence stage.
 #[derive(Clone, Debug)]
 pub struct Fence {
-    outline: Outline<f32>,
-    fence: planning::Fence<f32>,
-    guards: Guards,
-    base: BasePlacement<f32>,
+    sweep: Sweep,
     swing: Swing,
     /// Swing, boom, arm, bucket.
     to_come: [ToCome; 4],
@@ -82,10 +79,7 @@ impl Fence {
             Swing::Cylinder { stroke, .. } => *stroke,
         };
         Ok(Self {
-            outline: Outline::new(g, &p.outline)?,
-            fence: p.fence(),
-            guards: p.guards,
-            base: BasePlacement::level(Rotor::IDENTITY, [0.0, 0.0, p.boom_pin_height_m as f32]),
+            sweep: Sweep::new(p, geometry, valves)?,
             swing,
             positions: [0.0; 4],
             travels: [of_swing, boom, arm, bucket],
@@ -101,6 +95,11 @@ impl Fence {
         self.weigh(machine, sensed, wanted).ok_or(Fault::Geometry)
     }
 
+    /// Forgets what was near: nothing passes until every limit has been weighed again.
+    pub fn reset(&mut self) {
+        self.sweep.reset();
+    }
+
     fn weigh(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Option<Fenced> {
         let measured = sensed.lengths;
         let of_swing = match &self.swing {
@@ -108,7 +107,7 @@ impl Fence {
             Swing::Cylinder { cylinder, .. } => cylinder.length(sensed.swing).ok()?,
         };
         self.positions = [of_swing, measured.boom, measured.arm, measured.bucket];
-        let [ahead, boom, arm, bucket] = self.to_come.each_ref().map(ToCome::travel);
+        let [turning, boom, arm, bucket] = self.to_come.each_ref().map(ToCome::travel);
         let [_, of_boom, of_arm, of_bucket] = self.travels;
         let at = |length: f32, travel: f32, [low, high]: [f32; 2]| limited(length + travel, low, high);
         let lengths = Cylinders {
@@ -116,15 +115,11 @@ impl Fence {
             arm: at(measured.arm, arm, of_arm),
             bucket: at(measured.bucket, bucket, of_bucket),
         };
-        let (swing, per_swing) = self.swing_ahead(sensed.swing, ahead).ok()?;
-        let swing_position = of_swing + ahead;
-        let placed = self.outline.place(machine, &machine.cylinders_to_joints(&lengths).ok()?).ok()?;
-        let [boom, arm, bucket] = machine.moment_arms(&lengths).ok()?.transmissions().ok()?;
-        let transmissions = [per_swing, boom, arm, bucket];
+        let (swing, per_swing) = self.swing_ahead(sensed.swing, turning).ok()?;
         let wanted = wanted.to_array();
-        let ahead = [swing_position, lengths.boom, lengths.arm, lengths.bucket];
+        let positions = [of_swing + turning, lengths.boom, lengths.arm, lengths.bucket];
         let mut receding = [0.0; 4];
-        let actuators = self.to_come.iter().zip(ahead.into_iter().zip(self.travels));
+        let actuators = self.to_come.iter().zip(positions.into_iter().zip(self.travels));
         for ((part, wanted), (to_come, (position, [low, high]))) in receding.iter_mut().zip(wanted).zip(actuators) {
             // At its stop, or before its spool has opened, an actuator makes up for no other's approach.
             let moves = if wanted > 0.0 { position < high - NEAR_STOP } else { position > low + NEAR_STOP };
@@ -132,11 +127,10 @@ impl Fence {
                 *part = limited(to_come.speed() / wanted, 0.0, 1.0);
             }
         }
-        let through = match self.guards {
-            Guards::Linkage => self.fence.limit(&placed.strips, swing, &self.base, &transmissions, &wanted, receding),
-            Guards::Tip => self.fence.limit(&[placed.tip()], swing, &self.base, &transmissions, &wanted, receding),
-        };
-        Some(Fenced { speeds: Speeds::from_array(through.rates), clearance_m: through.closest })
+        let ahead = Ahead { lengths, swing, per_swing };
+        self.sweep.step(machine, &ahead, wanted)?;
+        let (speeds, clearance_m) = self.sweep.limit(&ahead, wanted, &receding);
+        Some(Fenced { speeds: Speeds::from_array(speeds), clearance_m })
     }
 
     /// The swing this travel of its actuator further, and dθ1 by that travel there.

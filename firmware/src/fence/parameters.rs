@@ -2,7 +2,8 @@
 
 use kinematics_core::Real;
 use kinematics_core::planning::clearance::{HalfSpace, Sphere};
-use kinematics_core::planning::fence::{Fence, HALF_SPACES, Limits, SPHERES, Stopping, SwingRange};
+use kinematics_core::planning::fence::{Fence, Stopping};
+use kinematics_core::planning::limits::{HALF_SPACES, Limits, SPHERES, SwingRange};
 use kinematics_core::planning::outline::OutlineShape;
 use serde::{Deserialize, Serialize};
 

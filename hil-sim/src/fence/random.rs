@@ -2,7 +2,7 @@
 
 use firmware::fence::{BallParameters, FenceParameters, Guards, PlaneParameters, SwingRangeParameters};
 use kinematics_core::geometry::Stroke;
-use kinematics_core::planning::fence::{HALF_SPACES, Limits, SPHERES};
+use kinematics_core::planning::limits::{HALF_SPACES, Limits, SPHERES};
 use kinematics_core::planning::outline::Outline;
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Machine, Rotor};

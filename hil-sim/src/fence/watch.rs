@@ -1,7 +1,7 @@
 //! The true clearance of the simulated machine, in double precision: nothing of the controller's own is believed.
 
 use firmware::fence::FenceParameters;
-use kinematics_core::planning::fence::Limits;
+use kinematics_core::planning::limits::Limits;
 use kinematics_core::planning::outline::{Outline, PlacedOutline};
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Machine, Rotor};
@@ -18,7 +18,7 @@ pub struct Watch {
 }
 
 /// Rows between two looks: 4 ms, in which the slow approach next to a limit is a few millimetres at most.
-const STRIDE: usize = 4;
+const STRIDE: usize = 1;
 
 impl Watch {
     /// Of this fence.

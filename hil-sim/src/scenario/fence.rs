@@ -1,7 +1,7 @@
 //! `[fence]`: limits the controller keeps the linkage clear of. Every field may be left out.
 
 use firmware::fence::{BallParameters, FenceParameters, Guards, PlaneParameters, SwingRangeParameters};
-use kinematics_core::planning::fence::{HALF_SPACES, SPHERES};
+use kinematics_core::planning::limits::{HALF_SPACES, SPHERES};
 use serde::Deserialize;
 
 use super::check::within;

@@ -6,13 +6,17 @@
 //! are not; a fixed number of rounds over all limits, then one factor for everything that satisfies whatever is left.
 //!
 //! The clearances are to be taken where the machine will stand once everything already commanded has arrived: then nothing is
-//! still to come, and the command alone decides ([`Fence::limit`]).
+//! still to come, and the command alone decides.
+//!
+//! Weighing every strip against every limit is most of the work and may be spread over several control periods:
+//! [`Fence::weigh`] takes one limit at a time and keeps the few approaches that matter ([`Nearby`]), which [`Fence::limit`] then
+//! follows to first order as the machine moves on.
 //!
 //! ```
 //! use kinematics_core::planning::clearance::HalfSpace;
-//! use kinematics_core::planning::fence::{Fence, Limits, Stopping, SwingRange};
+//! use kinematics_core::planning::fence::{Fence, Nearby, Scene, Stopping};
+//! use kinematics_core::planning::limits::{Limits, SwingRange};
 //! use kinematics_core::planning::outline::{Outline, OutlineShape};
-//! use kinematics_core::rates::CylinderRates;
 //! use kinematics_core::world::BasePlacement;
 //! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
@@ -37,38 +41,50 @@
 //! let v: f32 = stopping.speed(0.1 + 0.02);
 //! assert!((v * v / 2.0 + 0.15 * v - 0.1).abs() < 1e-6);
 //! let fence = Fence { limits, stopping, turning };
-//! let transmissions = [1.0, boom, arm, bucket];
-//! let limit = |swing: f32, wanted| {
-//!     fence.limit(&placed.strips, Rotor::from_degrees(swing), &base, &transmissions, &wanted, [1.0; 4])
+//! let limit = |swing: f32, wanted, moved| {
+//!     let scene = Scene {
+//!         swing: Rotor::from_degrees(swing), base, transmissions: [1.0, boom, arm, bucket], wish: wanted, spare: [0.0; 4],
+//!     };
+//!     let mut nearby = Nearby::none();
+//!     fence.weigh_all(&placed.strips, &scene, &mut nearby);
+//!     (fence.limit(&nearby, &wanted, &[1.0; 4], &moved), nearby.closest)
 //! };
 //!
 //! // Raising the boom is slowed before the ceiling; lowering it, and swinging amid the range, are free.
-//! let up = limit(0.0, [0.3, 0.2, 0.0, 0.0]);
-//! assert!(up.rates[1] < 0.2 && up.rates[1] > 0.0 && up.rates[0] == 0.3, "{up:?}");
-//! assert_eq!(limit(0.0, [0.3, -0.2, 0.0, 0.0]).rates, [0.3, -0.2, 0.0, 0.0]);
+//! let (up, closest) = limit(0.0, [0.3, 0.2, 0.0, 0.0], [0.0; 4]);
+//! assert!(up[1] < 0.2 && up[1] > 0.0 && up[0] == 0.3, "{up:?}");
+//! assert_eq!(limit(0.0, [0.3, -0.2, 0.0, 0.0], [0.0; 4]).0, [0.3, -0.2, 0.0, 0.0]);
+//! // A boom cylinder that has moved a millimetre further since then may go on slower.
+//! assert!(limit(0.0, [0.0, 0.2, 0.0, 0.0], [0.0, 0.001, 0.0, 0.0]).0[1] < up[1]);
 //! // At the end of the range only the way back is open.
-//! assert_eq!(limit(60.0, [0.3, 0.0, 0.0, 0.0]).rates[0], 0.0);
-//! assert_eq!(limit(60.0, [-0.3, 0.0, 0.0, 0.0]).rates[0], -0.3);
-//! // The strip nearest to the ceiling is this far off it, and the swing this far from its range's end.
-//! assert_eq!(limits.closest(&placed.strips, Rotor::IDENTITY, &base), Some(up.closest));
-//! assert!(limits.swing_room(Rotor::from_degrees(61.0)).is_some_and(|room| room < 0.0));
+//! assert_eq!(limit(60.0, [0.3, 0.0, 0.0, 0.0], [0.0; 4]).0[0], 0.0);
+//! assert_eq!(limit(60.0, [-0.3, 0.0, 0.0, 0.0], [0.0; 4]).0[0], -0.3);
+//! // The strip nearest to the ceiling is this far off it.
+//! assert_eq!(limits.closest(&placed.strips, Rotor::IDENTITY, &base), Some(closest));
+//! // Limits may be weighed one at a time, by their number.
+//! let scene = Scene {
+//!     swing: Rotor::IDENTITY, base, transmissions: [1.0, boom, arm, bucket], wish: [0.3, 0.2, 0.0, 0.0], spare: [0.0; 4],
+//! };
+//! let mut nearby = Nearby::none();
+//! fence.weigh(0, &placed.strips, &scene, &mut nearby);
+//! assert_eq!(nearby.closest, closest);
 //! # Ok(())
 //! # }
 //! ```
 
-use super::clearance::{Clearance, HalfSpace, Sphere};
-use super::outline::{STRIPS, Strip};
+use super::clearance::Clearance;
+use super::limits::{HALF_SPACES, Limits, SPHERES};
+use super::nearby::{Approach, NEARBY};
+use super::outline::Strip;
 use crate::world::BasePlacement;
-use crate::{Real, Rotor, Vec2};
+use crate::{Real, Rotor};
 
-/// How many half-spaces a fence holds.
-pub const HALF_SPACES: usize = 8;
-/// How many balls.
-pub const SPHERES: usize = 4;
-/// How many bounds one step weighs at most: both ends of every strip to every half-space, every strip to every ball, the swing.
-pub const BOUNDS: usize = STRIPS * (2 * HALF_SPACES + SPHERES) + 2;
-/// Rounds over all bounds before one factor settles what is left.
-const ROUNDS: usize = 4;
+pub use super::nearby::Nearby;
+
+/// How many limits [`Fence::weigh`] takes one by one: half-spaces, then balls, then the swing's range.
+pub const LIMITS: usize = HALF_SPACES + SPHERES + 1;
+/// Rounds over all approaches before one factor settles what is left.
+const ROUNDS: usize = 3;
 
 /// How a motion can be stopped: in m and m/s, or rad and rad/s for the swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +101,12 @@ impl<T: Real> Stopping<T> {
     /// The fastest approach at this distance: the root of v²/2a + v·t = distance − margin, 0 within the margin.
     #[inline]
     pub fn speed(&self, distance: T) -> T {
-        let room = distance - self.margin;
+        self.speed_within(distance - self.margin)
+    }
+
+    /// The same of the distance less the margin.
+    #[inline]
+    fn speed_within(&self, room: T) -> T {
         if room > T::ZERO {
             let (t, twice) = (self.reaction_s, room + room);
             twice / (t + (t * t + twice / self.deceleration).sqrt())
@@ -93,83 +114,12 @@ impl<T: Real> Stopping<T> {
             T::ZERO
         }
     }
-}
 
-/// Where the swing may be: from `right` (clockwise) to `left` of straight ahead.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SwingRange<T> {
-    /// Its middle.
-    middle: Rotor<T>,
-    /// Half of it.
-    half: Rotor<T>,
-}
-
-/// The chord 2·sin(angle/2) of an angle within ±180°, which is below the angle, with its sign.
-fn chord<T: Real>(angle: Rotor<T>) -> T {
-    let length = Vec2::new(angle.cos - T::ONE, angle.sin).norm();
-    if angle.sin < T::ZERO { -length } else { length }
-}
-
-impl<T: Real> SwingRange<T> {
-    /// From `right_deg` to `left_deg`, less than a turn apart.
-    pub fn new(right_deg: T, left_deg: T) -> Self {
-        let half = T::from_f64(0.5);
-        Self {
-            middle: Rotor::from_degrees((right_deg + left_deg) * half),
-            half: Rotor::from_degrees((left_deg - right_deg) * half),
-        }
+    /// 1/2a.
+    #[inline]
+    fn per_square(&self) -> T {
+        T::ONE / (self.deceleration + self.deceleration)
     }
-
-    /// At most how far the right and the left end are, rad; negative beyond them. Next to an end it is exact, far off the chord.
-    fn distances(&self, swing: Rotor<T>) -> [T; 2] {
-        let from_middle = swing * self.middle.inverse();
-        let inverse = from_middle.inverse();
-        // The end on this side by its own chord; the other is farther off than half the range.
-        let half = chord(self.half);
-        if from_middle.sin < T::ZERO {
-            [chord(from_middle * self.half), half]
-        } else {
-            [half, chord(inverse * self.half)]
-        }
-    }
-}
-
-/// What a fence keeps clear of, in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits<T> {
-    /// Planes: ceiling, floor, walls.
-    pub half_spaces: [Option<HalfSpace<T>>; HALF_SPACES],
-    /// Points and balls.
-    pub spheres: [Option<Sphere<T>>; SPHERES],
-    /// The swing's range.
-    pub swing: Option<SwingRange<T>>,
-}
-
-impl<T: Real> Limits<T> {
-    /// The smallest clearance of these strips to any half-space or ball, m; `None` without any.
-    pub fn closest(&self, strips: &[Strip<T>], swing: Rotor<T>, base: &BasePlacement<T>) -> Option<T> {
-        let spaces = self.half_spaces.iter().flatten().flat_map(|space| {
-            let seen = space.seen(base, swing);
-            strips.iter().flat_map(move |strip| strip.to_half_space(&seen)).map(|end| end.distance)
-        });
-        let balls = self.spheres.iter().flatten().flat_map(|ball| {
-            let seen = ball.seen(base, swing);
-            strips.iter().map(move |strip| strip.to_sphere(&seen).distance)
-        });
-        spaces.chain(balls).reduce(|a, b| if b < a { b } else { a })
-    }
-
-    /// How far the swing is from the nearer end of its range, rad, negative beyond; `None` without a range.
-    pub fn swing_room(&self, swing: Rotor<T>) -> Option<T> {
-        let [right, left] = self.swing.as_ref()?.distances(swing);
-        Some(if left < right { left } else { right })
-    }
-}
-
-impl<T> Limits<T> {
-    /// Nothing.
-    pub const NONE: Self =
-        Self { half_spaces: [const { None }; HALF_SPACES], spheres: [const { None }; SPHERES], swing: None };
 }
 
 /// A fence with its ways of stopping.
@@ -183,16 +133,23 @@ pub struct Fence<T> {
     pub turning: Stopping<T>,
 }
 
-/// What a fence lets through.
+/// Where limits are weighed: where the machine will stand once what is commanded has arrived, and what may be wanted there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LetThrough<T> {
-    /// The actuators' rates: each between 0 and what was wanted.
-    pub rates: [T; 4],
-    /// The smallest clearance to any half-space or ball, m; the largest number there is without any.
-    pub closest: T,
+pub struct Scene<T> {
+    /// The swing.
+    pub swing: Rotor<T>,
+    /// The machine in the world.
+    pub base: BasePlacement<T>,
+    /// dθ/dL of swing, boom, arm, bucket (1 for a joint's own rate).
+    pub transmissions: [T; 4],
+    /// The rates wanted of the actuators, or what bounds them, by sign and size. Approaches that only others could make are
+    /// not kept.
+    pub wish: [T; 4],
+    /// How far each actuator may have moved, either way, when the result is used for the last time, m or rad.
+    pub spare: [T; 4],
 }
 
-/// One bound that what is wanted may exceed: each actuator's share of the approach, and the fastest allowed.
+/// What is wanted that exceeds a bound: each actuator's share of the approach, and the fastest allowed.
 #[derive(Clone, Copy, Debug)]
 struct Bound<T> {
     shares: [T; 4],
@@ -201,6 +158,7 @@ struct Bound<T> {
 
 impl<T: Real> Bound<T> {
     /// The approaching and the receding shares, scaled.
+    #[inline(always)]
     fn parts(&self, scales: &[T; 4]) -> (T, T) {
         let (mut towards, mut away) = (T::ZERO, T::ZERO);
         for (&share, &scale) in self.shares.iter().zip(scales) {
@@ -214,112 +172,162 @@ impl<T: Real> Bound<T> {
     }
 }
 
-/// The bounds of one step, and the smallest clearance seen.
-struct Bounds<T> {
-    bounds: [Bound<T>; BOUNDS],
-    used: usize,
-    closest: T,
-    /// The part of each actuator's wanted rate that counts where it recedes, 0 to 1.
-    counts: [T; 4],
+/// Products of both, one by one.
+fn times<T: Real>([a, b, c, d]: [T; 4], [w, x, y, z]: [T; 4]) -> [T; 4] {
+    [a * w, b * x, c * y, d * z]
 }
 
-impl<T: Real> Bounds<T> {
-    /// Keeps a bound that matters: what is wanted could exceed it if nothing moved away.
-    fn keep(&mut self, shares: [T; 4], fastest: T) {
-        let mut bound = Bound { shares, fastest };
-        for (share, counts) in bound.shares.iter_mut().zip(self.counts) {
-            if *share < T::ZERO {
-                *share = *share * counts;
+impl<T: Real> Fence<T> {
+    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near. A number without a limit does
+    /// nothing; false then.
+    pub fn weigh(&self, number: usize, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) -> bool {
+        let mut weighing = Weighing::new(&self.stopping, scene, nearby);
+        if let Some(Some(space)) = self.limits.half_spaces.get(number) {
+            let seen = space.seen(&scene.base, scene.swing);
+            for strip in strips {
+                let [from, to] = strip.to_half_space(&seen);
+                weighing.clearance(&from);
+                weighing.clearance(&to);
+            }
+            return true;
+        }
+        let ball = number.checked_sub(HALF_SPACES).and_then(|number| self.limits.spheres.get(number));
+        if let Some(Some(ball)) = ball {
+            let seen = ball.seen(&scene.base, scene.swing);
+            for strip in strips {
+                weighing.clearance(&strip.to_sphere(&seen));
+            }
+            return true;
+        }
+        match &self.limits.swing {
+            Some(range) if number + 1 == LIMITS => {
+                let [per_swing, ..] = scene.transmissions;
+                nearby.turning = Some((range.distances(scene.swing), per_swing));
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Weighs all limits.
+    pub fn weigh_all(&self, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) {
+        for number in 0..LIMITS {
+            self.weigh(number, strips, scene, nearby);
+        }
+    }
+
+    /// What is let through of the wanted rates of swing, boom, arm, bucket: each between 0 and what was wanted. `moved` is how far
+    /// the actuators are from where `nearby` was weighed; `receding`, which part (0 to 1) of its wanted rate each actuator has reached: only
+    /// that much makes up for another's approach.
+    pub fn limit(&self, nearby: &Nearby<T>, wanted: &[T; 4], receding: &[T; 4], moved: &[T; 4]) -> [T; 4] {
+        let rates = self.turning_limited(nearby, wanted, moved);
+        let per_square = self.stopping.per_square();
+        let unused = Bound { shares: [T::ZERO; 4], fastest: T::ZERO };
+        let mut exceeded = [unused; NEARBY + 1];
+        let mut count = 0;
+        for approach in nearby.iter() {
+            let mut shares = approach.at_most(&rates);
+            let mut towards = T::ZERO;
+            for (share, &part) in shares.iter_mut().zip(receding) {
+                if *share > T::ZERO {
+                    towards = towards + *share;
+                } else {
+                    *share = *share * part;
+                }
+            }
+            let [a, b, c, d] = approach.at_most(moved);
+            let room = approach.room - (a + b + (c + d));
+            if towards * (self.stopping.reaction_s + towards * per_square) > room
+                && let Some(slot) = exceeded.get_mut(count)
+            {
+                *slot = Bound { shares, fastest: self.stopping.speed_within(room) };
+                count += 1;
             }
         }
-        if bound.parts(&[T::ONE; 4]).0 > fastest
-            && let Some(slot) = self.bounds.get_mut(self.used)
-        {
-            *slot = bound;
-            self.used += 1;
+        if count == 0 { rates } else { times(scales(exceeded.get(..count).unwrap_or(&exceeded)), rates) }
+    }
+
+    /// The wanted rates, the swing's kept within its range.
+    fn turning_limited(&self, nearby: &Nearby<T>, wanted: &[T; 4], moved: &[T; 4]) -> [T; 4] {
+        let [wanted, boom, arm, bucket] = *wanted;
+        let mut swing = wanted;
+        if let Some(([right, left], per_swing)) = nearby.turning {
+            let [moved, ..] = *moved;
+            let (turning, turned) = (wanted * per_swing, moved * per_swing);
+            let (distance, rate) =
+                if turning > T::ZERO { (left - turned, turning) } else { (right + turned, -turning) };
+            let fastest = self.turning.speed(distance);
+            if rate > fastest {
+                swing = wanted * (fastest / rate);
+            }
         }
+        [swing, boom, arm, bucket]
     }
+}
 
-    fn weigh(&mut self, clearance: &Clearance<T>, stopping: &Stopping<T>, joint_rates: &[T; 4]) {
-        self.closest = if clearance.distance < self.closest { clearance.distance } else { self.closest };
-        let [a, b, c, d] = clearance.approach;
-        let [swing, boom, arm, bucket] = *joint_rates;
-        self.keep([a * swing, b * boom, c * arm, d * bucket], stopping.speed(clearance.distance));
-    }
-
-    fn iter(&self) -> impl Iterator<Item = &Bound<T>> {
-        self.bounds.iter().take(self.used)
-    }
-
-    /// Every actuator's factor.
-    fn scales(&self) -> [T; 4] {
-        let mut scales = [T::ONE; 4];
-        for _ in 0..ROUNDS {
-            for bound in self.iter() {
-                let (towards, away) = bound.parts(&scales);
-                if towards + away > bound.fastest {
-                    // towards > fastest − away ≥ 0
-                    let factor = (bound.fastest - away) / towards;
-                    for (scale, &share) in scales.iter_mut().zip(&bound.shares) {
-                        if share > T::ZERO {
-                            *scale = *scale * factor;
-                        }
+/// Every actuator's factor, so that all bounds are kept.
+fn scales<T: Real>(exceeded: &[Bound<T>]) -> [T; 4] {
+    let mut scales = [T::ONE; 4];
+    for _ in 0..ROUNDS {
+        for bound in exceeded {
+            let (towards, away) = bound.parts(&scales);
+            if towards + away > bound.fastest {
+                // towards > fastest − away ≥ 0
+                let factor = (bound.fastest - away) / towards;
+                for (scale, &share) in scales.iter_mut().zip(&bound.shares) {
+                    if share > T::ZERO {
+                        *scale = *scale * factor;
                     }
                 }
             }
         }
-        let mut common = T::ONE;
-        for bound in self.iter() {
-            let (towards, away) = bound.parts(&scales);
-            let approach = towards + away;
-            if approach * common > bound.fastest {
-                common = bound.fastest / approach;
-            }
-        }
-        scales.map(|scale| scale * common)
     }
+    let mut common = T::ONE;
+    for bound in exceeded {
+        let (towards, away) = bound.parts(&scales);
+        let approach = towards + away;
+        if approach * common > bound.fastest {
+            common = bound.fastest / approach;
+        }
+    }
+    scales.map(|scale| scale * common)
 }
 
-impl<T: Real> Fence<T> {
-    /// What is let through of the wanted rates of swing, boom, arm, bucket: of actuators, `transmissions` being dθ/dL of each (1
-    /// for a joint's own rate). `strips` and `swing` tell where the machine will stand once what is commanded has arrived; `receding`,
-    /// which part (0 to 1) of its wanted rate each actuator has reached: only that much makes up for another's approach.
-    pub fn limit(
-        &self,
-        strips: &[Strip<T>],
-        swing: Rotor<T>,
-        base: &BasePlacement<T>,
-        transmissions: &[T; 4],
-        wanted: &[T; 4],
-        receding: [T; 4],
-    ) -> LetThrough<T> {
-        let [w1, w2, w3, w4] = *wanted;
-        let [t1, t2, t3, t4] = *transmissions;
-        let rates = [w1 * t1, w2 * t2, w3 * t3, w4 * t4];
-        let unused = Bound { shares: [T::ZERO; 4], fastest: T::ZERO };
-        let mut bounds =
-            Bounds { bounds: [unused; BOUNDS], used: 0, closest: T::from_f64(f64::from(f32::MAX)), counts: receding };
-        for space in self.limits.half_spaces.iter().flatten() {
-            let seen = space.seen(base, swing);
-            for strip in strips {
-                for end in strip.to_half_space(&seen) {
-                    bounds.weigh(&end, &self.stopping, &rates);
-                }
-            }
+/// One limit's clearances on their way to what is kept.
+struct Weighing<'a, T> {
+    nearby: &'a mut Nearby<T>,
+    transmissions: [T; 4],
+    /// The wish and the spare way as joint rates and angles.
+    wish: [T; 4],
+    spare: [T; 4],
+    margin: T,
+    reaction_s: T,
+    per_square: T,
+}
+
+impl<'a, T: Real> Weighing<'a, T> {
+    fn new(stopping: &Stopping<T>, scene: &Scene<T>, nearby: &'a mut Nearby<T>) -> Self {
+        let t = scene.transmissions;
+        let (margin, reaction_s) = (stopping.margin, stopping.reaction_s);
+        let (wish, spare) = (times(scene.wish, t), times(scene.spare, t));
+        Self { nearby, transmissions: t, wish, spare, margin, reaction_s, per_square: stopping.per_square() }
+    }
+
+    #[inline(always)]
+    fn clearance(&mut self, clearance: &Clearance<T>) {
+        let distance = clearance.distance;
+        self.nearby.closest = if distance < self.nearby.closest { distance } else { self.nearby.closest };
+        let (mut towards, mut nearer) = (T::ZERO, T::ZERO);
+        for ((&by, &wish), &spare) in clearance.approach.iter().zip(&self.wish).zip(&self.spare) {
+            let (share, way) = (by * wish, by * spare);
+            towards = if share > T::ZERO { towards + share } else { towards };
+            nearer = if way > T::ZERO { nearer + way } else { nearer - way };
         }
-        for ball in self.limits.spheres.iter().flatten() {
-            let seen = ball.seen(base, swing);
-            for strip in strips {
-                bounds.weigh(&strip.to_sphere(&seen), &self.stopping, &rates);
-            }
+        let room = distance - self.margin;
+        let demand = towards * (self.reaction_s + towards * self.per_square) + nearer - room;
+        if demand > T::ZERO {
+            let by = times(clearance.approach, self.transmissions);
+            self.nearby.keep(Approach::new(by, room), demand);
         }
-        if let Some(range) = &self.limits.swing {
-            let [right, left] = range.distances(swing);
-            let [turning, ..] = rates;
-            bounds.keep([-turning, T::ZERO, T::ZERO, T::ZERO], self.turning.speed(right));
-            bounds.keep([turning, T::ZERO, T::ZERO, T::ZERO], self.turning.speed(left));
-        }
-        let [s1, s2, s3, s4] = bounds.scales();
-        LetThrough { rates: [w1 * s1, w2 * s2, w3 * s3, w4 * s4], closest: bounds.closest }
     }
 }

@@ -20,7 +20,7 @@
 //! A fence:
 //! - [`outline`] — the linkage's bodies as rounded strips, placed by the joints;
 //! - [`clearance`] — their distance to half-spaces and spheres, with its derivative by every joint;
-//! - [`fence`] — commands slowed so that the machine stops before them.
+//! - [`limits`] — what to keep clear of; [`fence`] — commands slowed so that the machine stops before it.
 
 pub mod avoid;
 pub mod clearance;
@@ -30,8 +30,10 @@ pub mod fence;
 pub mod hull;
 mod joint_line;
 pub mod least_effort;
+pub mod limits;
 pub mod minimum_norm;
 pub mod move_limits;
+mod nearby;
 pub mod obstacle;
 pub mod outline;
 pub mod park;
