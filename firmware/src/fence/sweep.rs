@@ -1,8 +1,9 @@
-//! The limits weighed in turn: a tick to place the linkage, then a limit a tick. Meanwhile what the sweep before has kept near is followed
+//! The limits weighed in turn: a tick to place the linkage, one to tell how far it can come, then
+//! a part of its strips against a limit a tick. Meanwhile what the sweep before has kept near is followed
 //! to first order; a wish larger than the one it was weighed with waits for the next.
 
-use kinematics_core::planning::fence::{Fence, LIMITS, Nearby, Scene};
-use kinematics_core::planning::outline::{Outline, PlacedOutline, Strip};
+use kinematics_core::planning::fence::{Fence, LIMITS, Nearby, Reaches, Scene};
+use kinematics_core::planning::outline::{Outline, PlacedOutline, STRIPS, Strip};
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Machine, Rotor};
 
@@ -20,6 +21,21 @@ pub(super) struct Ahead {
     pub(super) per_swing: f32,
 }
 
+/// A tick's share of a sweep.
+#[derive(Clone, Copy, Debug)]
+enum Next {
+    /// Place the linkage.
+    Place,
+    /// Tell how far its strips can come.
+    Reach,
+    /// Weigh this part of the strips against the first limit from this number on.
+    Weigh(usize, usize),
+}
+
+/// Strips that are weighed in a tick, and in how many ticks all are.
+const PART: usize = 5;
+const PARTS: usize = STRIPS.div_ceil(PART);
+
 /// What is near, by the last complete sweep, and the sweep under way.
 #[derive(Clone, Debug)]
 pub(super) struct Sweep {
@@ -29,9 +45,9 @@ pub(super) struct Sweep {
     near: Nearby<f32>,
     near_ahead: Ahead,
     near_wish: [f32; 4],
-    /// The limit that is next; none: the linkage is to be placed.
-    next: Option<usize>,
+    next: Next,
     placed: Option<PlacedOutline<f32>>,
+    reaches: Reaches<f32>,
     scene: Scene<f32>,
     found: Nearby<f32>,
     ahead: Ahead,
@@ -45,8 +61,8 @@ impl Sweep {
     ) -> Result<Self, ParameterError> {
         let fence = p.fence();
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
-        // A tick places, one weighs the swing's range and hands over; what a sweep found serves until the next has ended.
-        let age_s = 2.0 * (limits as f32 + 2.0) * TICK_S;
+        // A tick places, one tells the reaches, one weighs the swing's range and hands over; what a sweep found serves until the next has ended.
+        let age_s = 2.0 * ((limits * PARTS) as f32 + 3.0) * TICK_S;
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -63,8 +79,9 @@ impl Sweep {
             near: Nearby::none(),
             near_ahead: ahead,
             near_wish: zero,
-            next: None,
+            next: Next::Place,
             placed: None,
+            reaches: Reaches::none(),
             scene: Scene { swing: Rotor::IDENTITY, base, transmissions: zero, wish: zero, spare },
             found: Nearby::none(),
             ahead,
@@ -74,18 +91,21 @@ impl Sweep {
     pub(super) fn reset(&mut self) {
         self.near.clear();
         self.near_wish = [0.0; 4];
-        self.next = None;
+        self.next = Next::Place;
     }
 
     /// One tick's share of the work; `None` where the linkage ahead does not close.
     pub(super) fn step(&mut self, machine: &Machine<f32>, ahead: &Ahead, wanted: [f32; 4]) -> Option<()> {
         match self.next {
-            None => self.place(machine, ahead, wanted),
-            Some(number) => {
-                self.weigh_from(number);
-                Some(())
+            Next::Place => return self.place(machine, ahead, wanted),
+            Next::Reach => {
+                let mut tip = None;
+                self.reaches = self.fence.reaches(guarded(&self.placed, self.guards, &mut tip), &self.scene);
+                self.next = Next::Weigh(0, 0);
             }
+            Next::Weigh(number, part) => self.weigh_from(number, part),
         }
+        Some(())
     }
 
     fn place(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
@@ -96,31 +116,27 @@ impl Sweep {
         self.scene = Scene { swing: ahead.swing, transmissions, wish, ..self.scene };
         self.ahead = *ahead;
         self.found.clear();
-        self.next = Some(0);
+        self.next = Next::Reach;
         Some(())
     }
 
-    /// Weighs the first limit from this number on; after the last, what was found is what is near.
-    fn weigh_from(&mut self, number: usize) {
-        let tip;
-        let strips: &[Strip<f32>] = match (&self.placed, self.guards) {
-            (Some(placed), Guards::Linkage) => &placed.strips,
-            (Some(placed), Guards::Tip) => {
-                tip = [placed.tip()];
-                &tip
-            }
-            (None, _) => &[],
-        };
+    /// Weighs a part of the strips against the first limit from this number on; after the last, what was found is what is near.
+    fn weigh_from(&mut self, number: usize, part: usize) {
+        let mut tip = None;
+        let strips = (guarded(&self.placed, self.guards, &mut tip), &self.reaches);
+        let from = part * PART;
         let mut weighed = number;
-        while weighed < LIMITS && !self.fence.weigh(weighed, strips, &self.scene, &mut self.found) {
+        while weighed < LIMITS && !self.fence.weigh(weighed, strips, from..from + PART, &self.scene, &mut self.found) {
             weighed += 1;
         }
-        if weighed + 1 < LIMITS {
-            self.next = Some(weighed + 1);
-        } else {
+        self.next = if weighed + 1 >= LIMITS {
             (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
-            self.next = None;
-        }
+            Next::Place
+        } else if part + 1 < PARTS {
+            Next::Weigh(weighed, part + 1)
+        } else {
+            Next::Weigh(weighed + 1, 0)
+        };
     }
 
     /// What is let through, and the smallest clearance of the last sweep.
@@ -131,6 +147,19 @@ impl Sweep {
         }
         let moved = self.near_ahead.until(ahead);
         (self.fence.limit(&self.near, &weighed, receding, &moved), self.near.closest)
+    }
+}
+
+/// The strips that are guarded; `tip` is room for the teeth's.
+fn guarded<'a>(
+    placed: &'a Option<PlacedOutline<f32>>,
+    guards: Guards,
+    tip: &'a mut Option<Strip<f32>>,
+) -> &'a [Strip<f32>] {
+    match (placed, guards) {
+        (Some(placed), Guards::Linkage) => &placed.strips,
+        (Some(placed), Guards::Tip) => core::slice::from_ref(tip.insert(placed.tip())),
+        (None, _) => &[],
     }
 }
 

@@ -15,14 +15,33 @@ pub(super) const LONGEST_TICKS: usize = 512;
 /// of one tick up to 7.8 m/s.
 const UNITS: f32 = 4_194_304.0;
 
+/// One direction of a valve.
+#[derive(Clone, Copy, Debug)]
+struct Opening {
+    dead_band: f32,
+    /// Beyond the dead band, by speed; and the other way round.
+    per_speed: f32,
+    speed_per: f32,
+}
+
+impl Opening {
+    fn new(valve: &ValveDirection) -> Self {
+        let left = 1.0 - valve.dead_band;
+        Self { dead_band: valve.dead_band, per_speed: left / valve.full_speed, speed_per: valve.full_speed / left }
+    }
+}
+
 /// One actuator.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ToCome {
-    valve: [ValveDirection; 2],
+    valve: [Opening; 2],
     lag_s: f32,
     /// The spool's share of the way to its command, a tick.
     spool_step: f32,
     spool: f32,
+    /// At the spool's opening, a dead time ahead; and what is still to come when it closes.
+    speed: f32,
+    closing: f32,
     /// Moves of the last dead time, oldest at `next`.
     moves: [i16; LONGEST_TICKS],
     delay: usize,
@@ -34,11 +53,13 @@ impl ToCome {
     pub(super) fn new(valve: &[ValveDirection; 2], dead_time_s: f32, lag_s: f32) -> Self {
         let delay = (dead_time_s * TICKS_PER_S as f32 + 0.5) as usize;
         Self {
-            valve: *valve,
+            valve: valve.each_ref().map(Opening::new),
             lag_s,
             // 1 − exp(−x) to its third order.
             spool_step: limited(TICK_S / (lag_s + 0.5 * TICK_S), 0.0, 1.0),
             spool: 0.0,
+            speed: 0.0,
+            closing: 0.0,
             moves: [0; LONGEST_TICKS],
             delay: core::cmp::min(delay, LONGEST_TICKS),
             next: 0,
@@ -49,9 +70,7 @@ impl ToCome {
     /// One tick at this speed, of an actuator measured at `position` between these ends of its travel, m or rad.
     pub(super) fn command(&mut self, speed: f32, position: f32, [low, high]: [f32; 2]) {
         let [extend, retract] = &self.valve;
-        let opening = |valve: &ValveDirection, speed: f32| {
-            limited(valve.dead_band + (1.0 - valve.dead_band) * speed / valve.full_speed, 0.0, 1.0)
-        };
+        let opening = |valve: &Opening, speed: f32| limited(valve.dead_band + speed * valve.per_speed, 0.0, 1.0);
         let target = if speed > 0.0 {
             opening(extend, speed)
         } else if speed < 0.0 {
@@ -60,10 +79,11 @@ impl ToCome {
             0.0
         };
         self.spool += (target - self.spool) * self.spool_step;
+        (self.speed, self.closing) = self.at_spool();
         let ahead = position + self.under_way as f32 * (1.0 / UNITS);
         let [back, forth] = [limited(low - ahead, low - high, 0.0), limited(high - ahead, 0.0, high - low)];
         // The cast saturates.
-        let moved = (limited(self.speed() * TICK_S, back, forth) * UNITS) as i16;
+        let moved = (limited(self.speed * TICK_S, back, forth) * UNITS) as i16;
         self.under_way += i32::from(moved);
         if let Some(slot) = self.moves.get_mut(self.next).filter(|_| self.delay > 0) {
             self.under_way -= i32::from(*slot);
@@ -77,24 +97,30 @@ impl ToCome {
         }
     }
 
-    /// The speed at the spool's opening, a dead time ahead.
-    pub(super) fn speed(&self) -> f32 {
+    /// The speed at the spool's opening, and the way until it has closed. From s to its dead band d it closes as s·exp(−t/τ),
+    /// which moves the actuator by `v·τ·(1 − d/(s − d)·ln(s/d))`; `ln x ≥ 3(x² − 1)/(x² + 4x + 1)` (its Padé approximant) bounds it
+    /// by `v·τ·(s − d)(s + 2d)/(s² + 4sd + d²)`.
+    fn at_spool(&self) -> (f32, f32) {
         let [extend, retract] = &self.valve;
-        let (valve, sign, opening) =
-            if self.spool > 0.0 { (extend, 1.0, self.spool) } else { (retract, -1.0, -self.spool) };
-        let beyond = opening - valve.dead_band;
-        if beyond > 0.0 { sign * (beyond / (1.0 - valve.dead_band)) * valve.full_speed } else { 0.0 }
+        let (valve, opening) = if self.spool > 0.0 { (extend, self.spool) } else { (retract, -self.spool) };
+        let (d, s) = (valve.dead_band, opening);
+        let beyond = s - d;
+        if beyond > 0.0 {
+            let speed = beyond * if self.spool > 0.0 { valve.speed_per } else { -valve.speed_per };
+            (speed, speed * self.lag_s * beyond * (s + d + d) / (s * (s + 4.0 * d) + d * d))
+        } else {
+            (0.0, 0.0)
+        }
     }
 
-    /// What is still to come, m or rad. The spool closes from s to its dead band d as s·exp(−t/τ), which moves the actuator by
-    /// `v·τ·(1 − d/(s − d)·ln(s/d))`; `ln x ≥ 3(x² − 1)/(x² + 4x + 1)` (its Padé approximant) bounds it by
-    /// `v·τ·(s − d)(s + 2d)/(s² + 4sd + d²)`.
+    /// The speed at the spool's opening, a dead time ahead.
+    pub(super) fn speed(&self) -> f32 {
+        self.speed
+    }
+
+    /// What is still to come, m or rad.
     pub(super) fn travel(&self) -> f32 {
-        let [extend, retract] = &self.valve;
-        let (d, s) = if self.spool > 0.0 { (extend.dead_band, self.spool) } else { (retract.dead_band, -self.spool) };
-        let closing =
-            if s > d { self.speed() * self.lag_s * (s - d) * (s + d + d) / (s * (s + 4.0 * d) + d * d) } else { 0.0 };
-        self.under_way as f32 * (1.0 / UNITS) + closing
+        self.under_way as f32 * (1.0 / UNITS) + self.closing
     }
 }
 

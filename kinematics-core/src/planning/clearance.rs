@@ -134,25 +134,55 @@ impl<T: Real> Strip<T> {
     /// Clearance to a ball seen in this frame. With its centre on the strip itself the direction is taken sideways.
     #[inline]
     pub fn to_sphere(&self, sphere: &Sphere<T>) -> Clearance<T> {
+        self.facing(sphere).clearance(self)
+    }
+
+    /// The point of the strip nearest to a ball seen in this frame.
+    #[inline(always)]
+    pub(super) fn facing(&self, sphere: &Sphere<T>) -> Facing<T> {
         let [cx, cy, cz] = sphere.centre;
         let [from, to] = &self.ends;
         let (along, centre) = (to.at - from.at, Vec2::new(cx, cz) - from.at);
         let square = along.norm_squared();
         // Fraction of the way to the second end; 0 for a strip whose ends coincide.
         let part = if square > T::ZERO { within(along.dot(centre) / square, T::ZERO, T::ONE) } else { T::ZERO };
-        let rest = T::ONE - part;
+        let at = from.at.scale(T::ONE - part) + to.at.scale(part);
+        let y = within(cy, -self.lateral, self.lateral);
+        let between = [cx - at.x, cy - y, cz - at.z];
+        let apart = dot(between, between).sqrt();
+        Facing { part, at, y, between, apart, distance: apart - sphere.radius - self.radius }
+    }
+}
+
+/// The point of a strip nearest to a ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facing<T> {
+    part: T,
+    at: Vec2<T>,
+    y: T,
+    between: [T; 3],
+    apart: T,
+    /// Between the surfaces, m.
+    pub(super) distance: T,
+}
+
+impl<T: Real> Facing<T> {
+    /// How fast it comes nearer.
+    #[inline(always)]
+    pub(super) fn clearance(&self, strip: &Strip<T>) -> Clearance<T> {
+        let [from, to] = &strip.ends;
+        let (part, rest) = (self.part, T::ONE - self.part);
         let mix = |a: Vec2<T>, b: Vec2<T>| a.scale(rest) + b.scale(part);
         let [b0, a0, k0] = from.per_joint;
         let [b1, a1, k1] = to.per_joint;
-        let point = MovingPoint { at: mix(from.at, to.at), per_joint: [mix(b0, b1), mix(a0, a1), mix(k0, k1)] };
-        let y = within(cy, -self.lateral, self.lateral);
-        let [dx, dy, dz] = [cx - point.at.x, cy - y, cz - point.at.z];
-        let apart = dot([dx, dy, dz], [dx, dy, dz]).sqrt();
+        let point = MovingPoint { at: self.at, per_joint: [mix(b0, b1), mix(a0, a1), mix(k0, k1)] };
+        let [dx, dy, dz] = self.between;
+        let apart = self.apart;
         let normal = if apart > T::ZERO { [dx / apart, dy / apart, dz / apart] } else { [T::ZERO, T::ONE, T::ZERO] };
         Clearance {
-            distance: apart - sphere.radius - self.radius,
-            nearest: [point.at.x, y, point.at.z],
-            approach: approach(&point, y, normal),
+            distance: self.distance,
+            nearest: [point.at.x, self.y, point.at.z],
+            approach: approach(&point, self.y, normal),
         }
     }
 }

@@ -14,7 +14,7 @@
 //!
 //! ```
 //! use kinematics_core::planning::clearance::HalfSpace;
-//! use kinematics_core::planning::fence::{Fence, Nearby, Scene, Stopping};
+//! use kinematics_core::planning::fence::{Fence, Nearby, Reaches, Scene, Stopping};
 //! use kinematics_core::planning::limits::{Limits, SwingRange};
 //! use kinematics_core::planning::outline::{Outline, OutlineShape};
 //! use kinematics_core::world::BasePlacement;
@@ -66,16 +66,20 @@
 //!     swing: Rotor::IDENTITY, base, transmissions: [1.0, boom, arm, bucket], wish: [0.3, 0.2, 0.0, 0.0], spare: [0.0; 4],
 //! };
 //! let mut nearby = Nearby::none();
-//! fence.weigh(0, &placed.strips, &scene, &mut nearby);
+//! let reaches = fence.reaches(&placed.strips, &scene);
+//! assert!(reaches != Reaches::none());
+//! fence.weigh(0, (&placed.strips, &reaches), 0..13, &scene, &mut nearby);
 //! assert_eq!(nearby.closest, closest);
 //! # Ok(())
 //! # }
 //! ```
 
+use core::ops::Range;
+
 use super::clearance::Clearance;
 use super::limits::{HALF_SPACES, Limits, SPHERES};
-use super::nearby::{Approach, NEARBY};
-use super::outline::Strip;
+use super::nearby::NEARBY;
+use super::outline::{OWN_ENDS, STRIPS, Strip};
 use crate::world::BasePlacement;
 use crate::{Real, Rotor};
 
@@ -84,7 +88,7 @@ pub use super::nearby::Nearby;
 /// How many limits [`Fence::weigh`] takes one by one: half-spaces, then balls, then the swing's range.
 pub const LIMITS: usize = HALF_SPACES + SPHERES + 1;
 /// Rounds over all approaches before one factor settles what is left.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// How a motion can be stopped: in m and m/s, or rad and rad/s for the swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,53 +153,103 @@ pub struct Scene<T> {
     pub spare: [T; 4],
 }
 
-/// What is wanted that exceeds a bound: each actuator's share of the approach, and the fastest allowed.
+/// How far each strip can come with a scene's wish.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaches<T> {
+    /// Until the result is used for the last time, m; the same and what the strip needs to stop from its fastest, with the margin.
+    of_strips: [[T; 2]; STRIPS],
+}
+
+impl<T: Real> Reaches<T> {
+    /// None has one yet.
+    pub fn none() -> Self {
+        Self { of_strips: [[T::ZERO; 2]; STRIPS] }
+    }
+}
+
+/// What is wanted that exceeds a bound: each actuator's share of the approach, apart by its sign, and the fastest allowed.
 #[derive(Clone, Copy, Debug)]
 struct Bound<T> {
-    shares: [T; 4],
+    towards: [T; 4],
+    away: [T; 4],
     fastest: T,
 }
 
 impl<T: Real> Bound<T> {
     /// The approaching and the receding shares, scaled.
     #[inline(always)]
-    fn parts(&self, scales: &[T; 4]) -> (T, T) {
-        let (mut towards, mut away) = (T::ZERO, T::ZERO);
-        for (&share, &scale) in self.shares.iter().zip(scales) {
-            if share > T::ZERO {
-                towards = towards + share * scale;
-            } else {
-                away = away + share * scale;
-            }
-        }
-        (towards, away)
+    fn parts(&self, scales: [T; 4]) -> (T, T) {
+        (sum(times(self.towards, scales)), sum(times(self.away, scales)))
     }
 }
 
+#[inline(always)]
+fn sum<T: Real>([a, b, c, d]: [T; 4]) -> T {
+    (a + b) + (c + d)
+}
+
 /// Products of both, one by one.
+#[inline(always)]
 fn times<T: Real>([a, b, c, d]: [T; 4], [w, x, y, z]: [T; 4]) -> [T; 4] {
     [a * w, b * x, c * y, d * z]
 }
 
 impl<T: Real> Fence<T> {
+    /// How far these strips can come with the scene's wish: farther off, no limit matters to them.
+    pub fn reaches(&self, strips: &[Strip<T>], scene: &Scene<T>) -> Reaches<T> {
+        let magnitude = |x: T| if x < T::ZERO { -x } else { x };
+        let (wish, spare) = (times(scene.wish, scene.transmissions), times(scene.spare, scene.transmissions));
+        let (wish, spare) = (wish.map(magnitude), spare.map(magnitude));
+        let per_square = self.stopping.per_square();
+        let mut reaches = Reaches::none();
+        for (reach, strip) in reaches.of_strips.iter_mut().zip(strips) {
+            let (mut fastest, mut longest) = (T::ZERO, T::ZERO);
+            for end in &strip.ends {
+                let [b, a, k] = end.per_joint.map(|v| v.norm_squared().sqrt());
+                let levers = [magnitude(end.at.x) + strip.lateral, b, a, k];
+                let (speed, way) = (sum(times(levers, wish)), sum(times(levers, spare)));
+                fastest = if speed > fastest { speed } else { fastest };
+                longest = if way > longest { way } else { longest };
+            }
+            let stops = fastest * (self.stopping.reaction_s + fastest * per_square);
+            *reach = [longest, stops + longest + self.stopping.margin];
+        }
+        reaches
+    }
+
     /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near. A number without a limit does
-    /// nothing; false then.
-    pub fn weigh(&self, number: usize, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) -> bool {
+    /// nothing; false then. `reaches` are those of the same strips and scene; of the strips, those within `part` are weighed.
+    pub fn weigh(
+        &self,
+        number: usize,
+        (strips, reaches): (&[Strip<T>], &Reaches<T>),
+        part: Range<usize>,
+        scene: &Scene<T>,
+        nearby: &mut Nearby<T>,
+    ) -> bool {
         let mut weighing = Weighing::new(&self.stopping, scene, nearby);
+        // The teeth alone are one strip.
+        let own_ends = if strips.len() < STRIPS { &[[false, true]; STRIPS] } else { &OWN_ENDS };
+        let strips = strips.iter().zip(&reaches.of_strips).zip(own_ends).take(part.end).skip(part.start);
         if let Some(Some(space)) = self.limits.half_spaces.get(number) {
             let seen = space.seen(&scene.base, scene.swing);
-            for strip in strips {
-                let [from, to] = strip.to_half_space(&seen);
-                weighing.clearance(&from);
-                weighing.clearance(&to);
+            for ((strip, reach), own) in strips {
+                for (clearance, _) in strip.to_half_space(&seen).iter().zip(own).filter(|&(_, &own)| own) {
+                    if weighing.matters(clearance.distance, reach) {
+                        weighing.keep(clearance, reach);
+                    }
+                }
             }
             return true;
         }
         let ball = number.checked_sub(HALF_SPACES).and_then(|number| self.limits.spheres.get(number));
         if let Some(Some(ball)) = ball {
             let seen = ball.seen(&scene.base, scene.swing);
-            for strip in strips {
-                weighing.clearance(&strip.to_sphere(&seen));
+            for ((strip, reach), _) in strips {
+                let facing = strip.facing(&seen);
+                if weighing.matters(facing.distance, reach) {
+                    weighing.keep(&facing.clearance(strip), reach);
+                }
             }
             return true;
         }
@@ -211,8 +265,9 @@ impl<T: Real> Fence<T> {
 
     /// Weighs all limits.
     pub fn weigh_all(&self, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) {
+        let reaches = self.reaches(strips, scene);
         for number in 0..LIMITS {
-            self.weigh(number, strips, scene, nearby);
+            self.weigh(number, (strips, &reaches), 0..STRIPS, scene, nearby);
         }
     }
 
@@ -222,25 +277,20 @@ impl<T: Real> Fence<T> {
     pub fn limit(&self, nearby: &Nearby<T>, wanted: &[T; 4], receding: &[T; 4], moved: &[T; 4]) -> [T; 4] {
         let rates = self.turning_limited(nearby, wanted, moved);
         let per_square = self.stopping.per_square();
-        let unused = Bound { shares: [T::ZERO; 4], fastest: T::ZERO };
+        let unused = Bound { towards: [T::ZERO; 4], away: [T::ZERO; 4], fastest: T::ZERO };
         let mut exceeded = [unused; NEARBY + 1];
         let mut count = 0;
         for approach in nearby.iter() {
-            let mut shares = approach.at_most(&rates);
-            let mut towards = T::ZERO;
-            for (share, &part) in shares.iter_mut().zip(receding) {
-                if *share > T::ZERO {
-                    towards = towards + *share;
-                } else {
-                    *share = *share * part;
-                }
-            }
-            let [a, b, c, d] = approach.at_most(moved);
-            let room = approach.room - (a + b + (c + d));
+            let shares = approach.at_most(&rates);
+            let by = shares.map(|share| if share > T::ZERO { share } else { T::ZERO });
+            let towards = sum(by);
+            let room = approach.room - sum(approach.at_most(moved));
             if towards * (self.stopping.reaction_s + towards * per_square) > room
                 && let Some(slot) = exceeded.get_mut(count)
             {
-                *slot = Bound { shares, fastest: self.stopping.speed_within(room) };
+                let away = shares.map(|share| if share > T::ZERO { T::ZERO } else { share });
+                let fastest = self.stopping.speed_within(room);
+                *slot = Bound { towards: by, away: times(away, *receding), fastest };
                 count += 1;
             }
         }
@@ -269,22 +319,25 @@ impl<T: Real> Fence<T> {
 fn scales<T: Real>(exceeded: &[Bound<T>]) -> [T; 4] {
     let mut scales = [T::ONE; 4];
     for _ in 0..ROUNDS {
+        let mut kept = true;
         for bound in exceeded {
-            let (towards, away) = bound.parts(&scales);
+            let (towards, away) = bound.parts(scales);
             if towards + away > bound.fastest {
                 // towards > fastest − away ≥ 0
                 let factor = (bound.fastest - away) / towards;
-                for (scale, &share) in scales.iter_mut().zip(&bound.shares) {
-                    if share > T::ZERO {
-                        *scale = *scale * factor;
-                    }
+                for (scale, &share) in scales.iter_mut().zip(&bound.towards) {
+                    *scale = if share > T::ZERO { *scale * factor } else { *scale };
                 }
+                kept = false;
             }
+        }
+        if kept {
+            return scales;
         }
     }
     let mut common = T::ONE;
     for bound in exceeded {
-        let (towards, away) = bound.parts(&scales);
+        let (towards, away) = bound.parts(scales);
         let approach = towards + away;
         if approach * common > bound.fastest {
             common = bound.fastest / approach;
@@ -297,9 +350,8 @@ fn scales<T: Real>(exceeded: &[Bound<T>]) -> [T; 4] {
 struct Weighing<'a, T> {
     nearby: &'a mut Nearby<T>,
     transmissions: [T; 4],
-    /// The wish and the spare way as joint rates and angles.
+    /// The wish as joint rates.
     wish: [T; 4],
-    spare: [T; 4],
     margin: T,
     reaction_s: T,
     per_square: T,
@@ -307,27 +359,30 @@ struct Weighing<'a, T> {
 
 impl<'a, T: Real> Weighing<'a, T> {
     fn new(stopping: &Stopping<T>, scene: &Scene<T>, nearby: &'a mut Nearby<T>) -> Self {
-        let t = scene.transmissions;
-        let (margin, reaction_s) = (stopping.margin, stopping.reaction_s);
-        let (wish, spare) = (times(scene.wish, t), times(scene.spare, t));
-        Self { nearby, transmissions: t, wish, spare, margin, reaction_s, per_square: stopping.per_square() }
+        let transmissions = scene.transmissions;
+        let (margin, reaction_s, per_square) = (stopping.margin, stopping.reaction_s, stopping.per_square());
+        Self { nearby, transmissions, wish: times(scene.wish, transmissions), margin, reaction_s, per_square }
     }
 
+    /// Notes a distance; whether it is within the strip's reach.
     #[inline(always)]
-    fn clearance(&mut self, clearance: &Clearance<T>) {
-        let distance = clearance.distance;
+    fn matters(&mut self, distance: T, [_, reach]: &[T; 2]) -> bool {
         self.nearby.closest = if distance < self.nearby.closest { distance } else { self.nearby.closest };
-        let (mut towards, mut nearer) = (T::ZERO, T::ZERO);
-        for ((&by, &wish), &spare) in clearance.approach.iter().zip(&self.wish).zip(&self.spare) {
-            let (share, way) = (by * wish, by * spare);
+        distance < *reach
+    }
+
+    /// Keeps an approach that the wish could make too fast before the strip has gone its way.
+    #[inline(always)]
+    fn keep(&mut self, clearance: &Clearance<T>, [way, _]: &[T; 2]) {
+        let mut towards = T::ZERO;
+        for (&by, &wish) in clearance.approach.iter().zip(&self.wish) {
+            let share = by * wish;
             towards = if share > T::ZERO { towards + share } else { towards };
-            nearer = if way > T::ZERO { nearer + way } else { nearer - way };
         }
-        let room = distance - self.margin;
-        let demand = towards * (self.reaction_s + towards * self.per_square) + nearer - room;
+        let room = clearance.distance - self.margin;
+        let demand = towards * (self.reaction_s + towards * self.per_square) + *way - room;
         if demand > T::ZERO {
-            let by = times(clearance.approach, self.transmissions);
-            self.nearby.keep(Approach::new(by, room), demand);
+            self.nearby.keep(clearance, &self.transmissions, room, demand);
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The approaches a fence follows from one weighing to the next: a fixed number of them one by one, what is more in one bound.
 
+use super::clearance::Clearance;
 use crate::Real;
 
 /// How many approaches are followed one by one.
-pub(super) const NEARBY: usize = 6;
+pub(super) const NEARBY: usize = 4;
 
 /// Approaches to limits by the rates of the actuators.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,21 +69,30 @@ impl<T: Real> Nearby<T> {
     }
 
     /// Keeps an approach by itself while there is room, else in place of the least demanding; that one is joined to the rest.
-    pub(super) fn keep(&mut self, approach: Approach<T>, demand: T) {
+    #[inline(never)]
+    pub(super) fn keep(&mut self, clearance: &Clearance<T>, &[t1, t2, t3, t4]: &[T; 4], room: T, demand: T) {
+        let [a1, a2, a3, a4] = clearance.approach;
+        let approach = Approach::new([a1 * t1, a2 * t2, a3 * t3, a4 * t4], room);
         if let Some(slot) = self.kept.get_mut(self.used) {
             *slot = (approach, demand);
             self.used += 1;
             return;
         }
-        let mut least = (approach, demand);
+        let mut least = demand;
+        let mut place = None;
         for kept in &mut self.kept {
-            if kept.1 < least.1 {
-                core::mem::swap(kept, &mut least);
+            if kept.1 < least {
+                least = kept.1;
+                place = Some(kept);
             }
         }
+        let joined = match place {
+            Some(kept) => core::mem::replace(kept, (approach, demand)).0,
+            None => approach,
+        };
         match &mut self.rest {
-            Some(rest) => rest.join(&least.0),
-            None => self.rest = Some(least.0),
+            Some(rest) => rest.join(&joined),
+            None => self.rest = Some(joined),
         }
     }
 

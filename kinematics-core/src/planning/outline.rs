@@ -78,6 +78,23 @@ pub const PARTS: [Part; STRIPS] = [
     Part::Bucket,
 ];
 
+/// Which ends of a strip no strip before it has, with its size: the ends a half-space is to be weighed against.
+pub(super) const OWN_ENDS: [[bool; 2]; STRIPS] = [
+    [true, true],
+    [false, true],
+    [true, true],
+    [false, true],
+    [false, false],
+    [true, true],
+    [true, true],
+    [true, true],
+    [true, true],
+    [false, true],
+    [true, true],
+    [false, true],
+    [false, true],
+];
+
 /// Thicknesses, widths and the two points the pins do not give, m. A radius is half the thickness in the plane; a half-width
 /// is how far the part stands out sideways (the radius, where that is more).
 #[derive(Clone, Copy, Debug, PartialEq)]
