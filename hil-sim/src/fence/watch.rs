@@ -7,6 +7,7 @@ use kinematics_core::world::BasePlacement;
 use kinematics_core::{Machine, Rotor};
 
 use crate::run::{Log, Row};
+use crate::scenario::Scenario;
 
 /// Looks at a fence from outside.
 #[derive(Clone, Debug)]
@@ -17,14 +18,18 @@ pub struct Watch {
     base: BasePlacement<f64>,
 }
 
-/// Rows between two looks: 4 ms, in which the slow approach next to a limit is a few millimetres at most.
-const STRIDE: usize = 1;
-
 impl Watch {
     /// Of this fence.
     pub fn new(machine: Machine<f64>, outline: Outline<f64>, fence: &FenceParameters) -> Self {
         let base = BasePlacement::level(Rotor::IDENTITY, [0.0, 0.0, fence.boom_pin_height_m]);
         Self { machine, outline, limits: fence.limits(), base }
+    }
+
+    /// Of a scenario's fence; `None` without one.
+    pub fn of(scenario: &Scenario) -> Option<Self> {
+        let fence = scenario.parameters.fence.as_ref()?;
+        let geometry = &scenario.machine.geometry;
+        Some(Self::new(Machine::new(geometry).ok()?, Outline::new(geometry, &fence.outline).ok()?, fence))
     }
 
     /// The linkage where the simulated machine truly has it.
@@ -43,7 +48,7 @@ impl Watch {
     /// The smallest of both over a run.
     pub fn over(&self, log: &Log) -> Option<(f64, f64)> {
         let mut least = (f64::INFINITY, f64::INFINITY);
-        for row in log.rows.iter().step_by(STRIDE).chain(log.rows.last()) {
+        for row in &log.rows {
             let (closest, room) = self.at(row)?;
             least = (if closest < least.0 { closest } else { least.0 }, if room < least.1 { room } else { least.1 });
         }
