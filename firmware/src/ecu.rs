@@ -7,6 +7,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 use crate::command::{Command, Intent};
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
+use crate::fence::{Fence, Fenced, NO_CLEARANCE};
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
@@ -24,6 +25,7 @@ pub struct Ecu<F = Followers> {
     sensing: Sensing,
     command: Command,
     motion: Motion<F>,
+    fence: Option<Fence>,
     supervisor: Supervisor,
     valve: Valve,
     tick: u32,
@@ -56,10 +58,12 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));
         }
+        let fence = p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.valves)).transpose()?;
         Ok(Self {
             sensing,
             command: Command::new(p.command_timeout_ticks),
             motion: Motion::new(p, &machine, dig, followers)?,
+            fence,
             machine,
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
@@ -79,12 +83,15 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let gate = self.supervisor.judge(inputs, &watched);
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
-        let nothing = Wanted { speeds: Speeds::ZERO, reference: self.lengths, dig_tick: 0 };
-        let wanted = match (gate, wanted) {
+        let nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
+        let (wanted, fenced) = match (gate, wanted) {
             (Gate::Open, Ok(wanted)) => wanted,
             _ => nothing,
         };
-        let coils = self.valve.drive(gate, &wanted.speeds, supply_v);
+        if let Some(fence) = &mut self.fence {
+            fence.sent(&fenced.speeds);
+        }
+        let coils = self.valve.drive(gate, &fenced.speeds, supply_v);
         let outputs = Outputs {
             tick: self.tick,
             state: self.supervisor.state(),
@@ -95,7 +102,9 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             pose: self.pose,
             dig_tick: wanted.dig_tick,
             reference: wanted.reference,
-            speeds: wanted.speeds,
+            asked: wanted.speeds,
+            clearance_m: fenced.clearance_m,
+            speeds: fenced.speeds,
             currents: coils.currents,
             duties: coils.duties,
         };
@@ -103,16 +112,24 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         outputs
     }
 
-    /// Sensing → pose → motion; the first stage at fault ends it.
-    fn sense_and_follow(&mut self, inputs: &Inputs, intent: &Intent) -> Result<Wanted, Fault> {
+    /// Sensing → pose → motion → fence; the first stage at fault ends it.
+    fn sense_and_follow(&mut self, inputs: &Inputs, intent: &Intent) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
-            self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)
+            let wanted = self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)?;
+            let fenced = match &mut self.fence {
+                Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
+                None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },
+            };
+            Ok((wanted, fenced))
         });
         if result.is_err() {
             self.motion.reset();
+            if let Some(fence) = &mut self.fence {
+                fence.reset();
+            }
         }
         result
     }

@@ -7,7 +7,7 @@ use kinematics_core::{Cylinders, Joints, PlaneTip, Pose, Rotor};
 /// Bytes of [`Inputs`].
 pub const INPUT_BYTES: usize = 21;
 /// Bytes of [`Outputs`].
-pub const OUTPUT_BYTES: usize = 4 + 1 + 1 + 1 + 12 + 4 * (2 + 6 + 4 + 2) + 4 + 12 + 16 + 32 + 16;
+pub const OUTPUT_BYTES: usize = 4 + 1 + 1 + 1 + 12 + 4 * (2 + 6 + 4 + 2) + 4 + 12 + 16 + 4 + 16 + 32 + 16;
 
 /// Why bytes are not a frame: the field, and what it held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,6 +173,10 @@ impl Outputs {
         w.rotor(pose.plane.pitch);
         w.bytes(self.dig_tick.to_le_bytes());
         w.cylinders(self.reference);
+        for speed in self.asked.to_array() {
+            w.float(speed);
+        }
+        w.float(self.clearance_m);
         for speed in self.speeds.to_array() {
             w.float(speed);
         }
@@ -217,6 +221,8 @@ impl Outputs {
             pose: Pose { swing, joints, plane, x, y },
             dig_tick: r.u32(),
             reference: r.cylinders(),
+            asked: Speeds::from_array([(); 4].map(|()| r.float())),
+            clearance_m: r.float(),
             speeds: Speeds::from_array([(); 4].map(|()| r.float())),
             currents: [(); 4].map(|()| [r.float(), r.float()]),
             duties: [(); 4].map(|()| [r.u16(), r.u16()]),

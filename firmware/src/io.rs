@@ -101,7 +101,11 @@ pub struct Outputs {
     pub dig_tick: u32,
     /// Reference cylinder lengths of this tick, m; the measured ones when none is followed.
     pub reference: Cylinders<f32>,
-    /// Actuator speeds that passed the gate.
+    /// Actuator speeds the motion stage asked for, behind an open gate.
+    pub asked: Speeds,
+    /// The smallest clearance the fence found, m; `f32::MAX` where there is nothing to be clear of or the gate is closed.
+    pub clearance_m: f32,
+    /// Actuator speeds that passed fence and gate.
     pub speeds: Speeds,
     /// Coil currents, A, a spool each.
     pub currents: [Solenoids<f32>; 4],

@@ -4,8 +4,8 @@
 //! pipeline; each stage has a configuration built once from [`Parameters`] and a small state, and hands on one value:
 //!
 //! ```text
-//! Inputs → sensing → pose → command → motion → valve → Outputs
-//!              the supervisor watches every stage and alone opens the gate between motion and valve
+//! Inputs → sensing → pose → command → motion → fence → valve → Outputs
+//!              the supervisor watches every stage and alone opens the gate between fence and valve
 //! ```
 //!
 //! The images under `src/bin` and the desktop harness are thin callers of it.
@@ -19,6 +19,7 @@ pub mod command;
 pub mod dig;
 mod ecu;
 pub mod fault;
+pub mod fence;
 pub mod frame;
 pub mod io;
 pub mod link;

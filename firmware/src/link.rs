@@ -18,6 +18,6 @@ pub const KIND_TICK: u8 = 1;
 /// First byte of the message that ends the run.
 pub const KIND_END: u8 = 0;
 /// Room for a parameter record, bytes.
-pub const RECORD_BYTES: usize = 1024;
+pub const RECORD_BYTES: usize = 2048;
 /// Outputs and the two measurements, bytes.
 pub const REPLY_BYTES: usize = OUTPUT_BYTES + 8;

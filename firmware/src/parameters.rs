@@ -10,6 +10,7 @@ use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::dig::DigParameters;
+use crate::fence::FenceParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
 use crate::travel::Violation;
 
@@ -103,6 +104,8 @@ pub struct Parameters {
     pub motion: MotionParameters,
     /// The dig, where there is one.
     pub dig: Option<DigParameters>,
+    /// The fence, where there is one.
+    pub fence: Option<FenceParameters>,
     /// The move, where there is one.
     pub planned_move: Option<MoveParameters>,
     /// The target to reach past obstacles, where there is one.
@@ -244,6 +247,7 @@ impl Parameters {
         ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
         self.motion.validate()?;
+        self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
         self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
         self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)

@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod coil;
 pub mod effort;
+pub mod fence;
 pub mod icd;
 pub mod machine;
 pub mod params;
@@ -38,6 +39,8 @@ enum Command {
     Params(params::ParamsArgs),
     /// Run a scenario on the host or on the emulated ECU, and report it
     Run(run::RunArgs),
+    /// Try fences with random operators on the simulated machine: whole linkage, tip only, none
+    Fence(fence::FenceArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
     Scenes(scenes::ScenesArgs),
     /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
@@ -65,6 +68,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Effort(args) }) => effort::main(&args),
         Ok(Hil { command: Command::Params(args) }) => params::main(&args),
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
+        Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),

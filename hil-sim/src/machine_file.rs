@@ -7,6 +7,7 @@ mod error;
 mod find;
 mod frankel;
 mod koivo;
+mod outline;
 mod parse;
 mod pins;
 mod value;
@@ -14,6 +15,7 @@ mod value;
 use std::fs;
 
 use kinematics_core::PinGeometry;
+use kinematics_core::planning::outline::{Outline, OutlineShape};
 
 pub use dynamics::{Dynamics, Link};
 use error::Layout;
@@ -33,6 +35,8 @@ pub struct MachineFile {
     pub boom_pin_height_m: f64,
     /// Masses and inertias, where the file has them.
     pub dynamics: Option<Dynamics>,
+    /// Sizes of the linkage's outline: the defaults of its pins where the file does not state them.
+    pub outline: OutlineShape,
 }
 
 impl MachineFile {
@@ -64,12 +68,14 @@ impl MachineFile {
         let geometry = geometry
             .and_then(|geometry| geometry.validate().map(|()| geometry))
             .map_err(|error| invalid(None, layout.explain(&error)))?;
-        let (name, description, dynamics) = match parsed {
-            Parsed::Pins(f) => (f.name, f.description, f.dynamics),
-            Parsed::Frankel(f) => (f.name, f.description, f.dynamics),
-            Parsed::Koivo(f) => (f.name, f.description, f.dynamics),
+        let (name, description, dynamics, outline) = match parsed {
+            Parsed::Pins(f) => (f.name, f.description, f.dynamics, f.outline),
+            Parsed::Frankel(f) => (f.name, f.description, f.dynamics, f.outline),
+            Parsed::Koivo(f) => (f.name, f.description, f.dynamics, f.outline),
         };
         let dynamics = dynamics.map(|table| table.dynamics());
-        Ok(Self { name, description, geometry, boom_pin_height_m, dynamics })
+        let outline = outline.unwrap_or_default().shape(&geometry);
+        Outline::<f64>::new(&geometry, &outline).map_err(|error| invalid(None, error.to_string()))?;
+        Ok(Self { name, description, geometry, boom_pin_height_m, dynamics, outline })
     }
 }

@@ -355,3 +355,19 @@ fn the_documented_example_loads() {
     assert!(geometry.swing.is_some());
     assert_eq!(PinGeometry { swing: None, ..geometry }, PinGeometry::EXACT_MINI);
 }
+
+#[test]
+fn an_outline_s_fields_replace_the_defaults_one_by_one_and_each_is_checked() {
+    let plain = MachineFile::load("zx200").unwrap().outline;
+    let with = |fields: &str| format!("{}\n[outline]\n{fields}\n", text("zx200"));
+    let stated = MachineFile::from_toml(&with("boom_knee_z_m = 1.5\nbucket_half_width_m = 0.45"), "x").unwrap().outline;
+    assert_eq!((stated.boom_knee.z, stated.bucket_half_width_m), (1.5, 0.45));
+    assert_eq!((stated.boom_knee.x, stated.arm_radius_m), (plain.boom_knee.x, plain.arm_radius_m));
+    for (field, bad) in [("boom_radius_m", "0.0"), ("bucket_half_width_m", "-1.0"), ("bucket_back_x_m", "nan")] {
+        let message = error(&with(&format!("{field} = {bad}")));
+        assert!(message.contains(field) && message.contains("within"), "{message}");
+    }
+    let message = error(&with("arm_radius_m = 2000.0"));
+    assert!(message.contains("`outline.arm_radius_m` must be within −1000…1000 m"), "{message}");
+    assert!(error(&with("knee = 1.0")).contains("knee"));
+}

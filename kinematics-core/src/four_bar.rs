@@ -27,6 +27,7 @@
 //! assert_eq!(Ok(linkage.length_unchecked(bucket)), linkage.length(bucket));
 //! ```
 
+use crate::planning::outline::CommonPin;
 use crate::triangle::{Closed, Moment, Side, Triangle};
 use crate::{Real, Rotor, Vec2};
 
@@ -162,6 +163,20 @@ impl<T: Real> FourBar<T> {
         let along = d.dot(self.pivot_from_base);
         let across = d.cross(self.pivot_from_base);
         (self.squares + (balance * along + discriminant.sqrt() * across) / square).sqrt()
+    }
+
+    /// Rotor of θ4 → J as [`FourBar::length`] finds it, with its velocity by θ4: dψ/dθ4 = (j × p)/(s × k) of [`FourBar::moment`].
+    pub(crate) fn common_pin(&self, rotor: Rotor<T>) -> Result<CommonPin<T>, Gap<T>> {
+        let p = rotor.rotate(self.coupler_pin);
+        let k = p - self.pivot_from_pin;
+        let square = k.norm_squared();
+        let balance = square + self.rocker_balance;
+        let discriminant = self.four_rocker * square - balance * balance;
+        if !(discriminant > T::ZERO && square > T::ZERO) {
+            return Err(self.gap(square, self.sides[2]));
+        }
+        let s = Vec2::new(balance, discriminant.sqrt_of_magnitude()).complex_mul(k).scale(T::from_f64(0.5) / square);
+        Ok(CommonPin::new(self.pivot_from_pin, s, (self.pivot_from_pin + s).cross(p) / s.cross(k)))
     }
 
     /// Cylinder length (m) → moment arm dL/dθ4 (m/rad), by velocities along the coupler:

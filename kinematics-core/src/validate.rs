@@ -17,7 +17,7 @@ fn error(field: &'static str, problem: Problem) -> GeometryError {
 /// No machine has a number beyond this, m; far beyond, f32 overflows and a pose is not a number.
 const LARGEST_M: f64 = 1e3;
 
-fn finite(field: &'static str, x: f64) -> Result<(), GeometryError> {
+pub(crate) fn finite(field: &'static str, x: f64) -> Result<(), GeometryError> {
     if !x.is_finite() {
         Err(error(field, Problem::NotFinite))
     } else if !(-LARGEST_M..=LARGEST_M).contains(&x) {

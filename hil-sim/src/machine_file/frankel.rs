@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::dynamics::DynamicsTable;
+use super::outline::OutlineTable;
 use super::value::{Length, Number};
 
 /// One inch in metres, exactly.
@@ -27,6 +28,7 @@ pub(super) struct FrankelFile {
     arm: Travel,
     bucket: Travel,
     pub(super) dynamics: Option<DynamicsTable>,
+    pub(super) outline: Option<OutlineTable>,
 }
 
 #[derive(Deserialize)]

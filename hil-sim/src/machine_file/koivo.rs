@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::dynamics::DynamicsTable;
+use super::outline::OutlineTable;
 use super::value::{Length, Number};
 
 #[derive(Deserialize)]
@@ -23,6 +24,7 @@ pub(super) struct KoivoFile {
     arm: Travel,
     bucket: Travel,
     pub(super) dynamics: Option<DynamicsTable>,
+    pub(super) outline: Option<OutlineTable>,
 }
 
 #[derive(Deserialize)]

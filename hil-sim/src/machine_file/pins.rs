@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::dynamics::DynamicsTable;
+use super::outline::OutlineTable;
 use super::value::{Length, Number};
 
 #[derive(Deserialize)]
@@ -22,6 +23,7 @@ pub(super) struct PinsFile {
     bucket: Bucket,
     swing: Option<Swing>,
     pub(super) dynamics: Option<DynamicsTable>,
+    pub(super) outline: Option<OutlineTable>,
 }
 
 #[derive(Deserialize)]

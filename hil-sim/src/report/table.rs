@@ -26,6 +26,12 @@ pub fn table(summary: &Summary, folder: &Path) -> String {
         row("tip from the target", format!("{:.1} mm at the end", error * 1e3));
         row("smallest clearance", format!("{:.1} mm", clearance * 1e3));
     }
+    if let Some(closest) = summary.fence_clearance_min_m {
+        row(if closest < 0.0 { "FENCE VIOLATED" } else { "closest to the fence" }, format!("{:.1} mm", closest * 1e3));
+    }
+    if let Some(room) = summary.fence_swing_room_min_deg {
+        row(if room < 0.0 { "SWING BEYOND ITS RANGE" } else { "closest to a swing end" }, format!("{room:.2}°"));
+    }
     if let Some(factor) = summary.real_time_factor {
         row("speed", format!("{factor:.0} × real time"));
     }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Log;
+use crate::fence::Watch;
 use crate::place::{Image, Timing};
 use crate::scenario::{Scenario, Task};
 use crate::travel::Violation;
@@ -58,7 +59,7 @@ pub enum Outcome {
     Done,
     /// Refused before motion.
     Refused,
-    /// A fault or a travel stop.
+    /// A fault, a travel stop, or the linkage beyond its fence.
     Violated,
 }
 
@@ -101,6 +102,12 @@ pub struct Summary {
     /// Smallest distance between the true hull and the obstacles, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_clearance_m: Option<f64>,
+    /// Smallest clearance between the true linkage and the fence's planes and balls, m; negative beyond.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fence_clearance_min_m: Option<f64>,
+    /// Smallest distance of the true swing to an end of the fence's range, degrees; negative beyond.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fence_swing_room_min_deg: Option<f64>,
     /// Simulated time over wall clock.
     pub real_time_factor: Option<f64>,
     /// Why the dig was refused before motion.
@@ -161,6 +168,8 @@ impl Summary {
             tip_error_max_m: None,
             target_error_m: None,
             smallest_clearance_m: None,
+            fence_clearance_min_m: None,
+            fence_swing_room_min_deg: None,
             real_time_factor: None,
             refused: Some(refused),
             faults: None,
@@ -176,6 +185,7 @@ impl Summary {
         let faults = log.faults.iter();
         let hits = log.stop_hits.iter();
         let reach = super::ReachSeen::of(scenario, log);
+        let fence = Watch::of(scenario).and_then(|watch| watch.over(log));
         Self {
             ticks: log.rows.len(),
             output_hash: Some(format!("{:016x}", log.output_hash)),
@@ -187,6 +197,8 @@ impl Summary {
             tip_error_max_m: errors.iter().copied().max_by(f64::total_cmp),
             target_error_m: reach.as_ref().map(|reach| reach.target_error_m),
             smallest_clearance_m: reach.as_ref().map(|reach| reach.smallest_clearance_m),
+            fence_clearance_min_m: fence.map(|(closest, _)| closest).filter(|m| m.is_finite()),
+            fence_swing_room_min_deg: fence.map(|(_, room)| room.to_degrees()).filter(|deg| deg.is_finite()),
             real_time_factor: Some(scenario.duration_s / log.wall.as_secs_f64()),
             refused: None,
             faults: Some(
@@ -200,10 +212,15 @@ impl Summary {
 
     /// How the run ended.
     pub fn outcome(&self) -> Outcome {
+        let beyond = |room: Option<f64>| room.is_some_and(|room| room < 0.0);
         let some = |list: Option<usize>| list.is_some_and(|n| n > 0);
         if some(self.refused.as_ref().map(Vec::len)) {
             Outcome::Refused
-        } else if some(self.faults.as_ref().map(Vec::len)) || some(self.stop_hits.as_ref().map(Vec::len)) {
+        } else if some(self.faults.as_ref().map(Vec::len))
+            || some(self.stop_hits.as_ref().map(Vec::len))
+            || beyond(self.fence_clearance_min_m)
+            || beyond(self.fence_swing_room_min_deg)
+        {
             Outcome::Violated
         } else {
             Outcome::Done

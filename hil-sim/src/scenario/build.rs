@@ -201,6 +201,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             following_error_m: m.following_error_m as f32,
         },
         dig: file.dig.as_ref().map(dig),
+        fence: file.fence.as_ref().map(|fence| fence.parameters(&machine, p.dead_time_s, p.spool_lag_s)).transpose()?,
         planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
         reach: file.reach.as_ref().map(|reach| self::reach(reach, &file.obstacle)).transpose()?,
     };

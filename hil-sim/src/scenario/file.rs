@@ -3,10 +3,12 @@
 use serde::Deserialize;
 
 use super::event::Event;
+use super::fence::FenceTable;
 use super::task::{LeverMove, Start};
 use crate::toml_text::{Tag, strictly};
 
-const TAGS: [Tag; 2] = [
+const TAGS: [Tag; 3] = [
+    ("fence.guards", "`\"linkage\"` or `\"tip\"`"),
     ("dig.reading", "`\"as_meant\"` or `\"as_published\"`"),
     ("move.pitch", "`\"free\"`, `\"fixed\"` or `\"bounded\"`"),
 ];
@@ -30,6 +32,7 @@ pub(super) struct ScenarioFile {
     pub(super) obstacle: Vec<Obstacle>,
     pub(super) motion: Motion,
     pub(super) plant: Plant,
+    pub(super) fence: Option<FenceTable>,
     #[serde(default)]
     pub(super) event: Vec<Event>,
 }

@@ -16,16 +16,26 @@
 //! The real machine in the loop, swing included:
 //! - [`hull`] — the linkage as capsules and its distances from spheres;
 //! - [`avoid`] — one step past obstacles; [`reach`] — the whole way to a target.
+//!
+//! A fence:
+//! - [`outline`] — the linkage's bodies as rounded strips, placed by the joints;
+//! - [`clearance`] — their distance to half-spaces and spheres, with its derivative by every joint;
+//! - [`limits`] — what to keep clear of; [`fence`] — commands slowed so that the machine stops before it.
 
 pub mod avoid;
+pub mod clearance;
 pub mod cylinder_path;
 pub mod effort;
+pub mod fence;
 pub mod hull;
 mod joint_line;
 pub mod least_effort;
+pub mod limits;
 pub mod minimum_norm;
 pub mod move_limits;
+mod nearby;
 pub mod obstacle;
+pub mod outline;
 pub mod park;
 pub mod pitch_plan;
 pub mod pitch_rule;

@@ -1,0 +1,157 @@
+//! Between motion and valve: the fence. Speeds that would carry any part of the linkage past a limit are reduced, none is added.
+//!
+//! What was commanded within the dead time, and what the spools' lag still gives, is to come whatever is decided now:
+//! [`to_come`] knows it from the valves' own model. The limits are weighed where that will have carried the machine
+//! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted. One limit is
+//! weighed a tick ([`sweep`]); what is near is followed every tick.
+
+mod parameters;
+mod sweep;
+mod to_come;
+
+use kinematics_core::swing::SwingCylinder;
+use kinematics_core::{Cylinders, Machine, PoseError, Rotor};
+
+use crate::fault::Fault;
+use crate::io::{Speeds, limited};
+use crate::parameters::{ParameterError, ValveDirection};
+use crate::sensing::Sensed;
+
+pub use parameters::{BallParameters, FenceParameters, Guards, PlaneParameters, SwingRangeParameters};
+use sweep::{Ahead, Sweep};
+use to_come::ToCome;
+
+/// What the fence hands on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fenced {
+    /// The speeds let through.
+    pub speeds: Speeds,
+    /// The smallest clearance of a guarded part to a plane or ball, where everything commanded has arrived, m, as weighed last;
+    /// [`NO_CLEARANCE`] without any.
+    pub clearance_m: f32,
+}
+
+/// The clearance where there is nothing to be clear of, m.
+pub const NO_CLEARANCE: f32 = f32::MAX;
+
+/// Nearer to a stop than this, m, noise may hide that an actuator stands at it.
+const NEAR_STOP: f32 = 0.001;
+
+/// The travel of a swing motor, rad: more than any that is under way at once.
+const ENDLESS: [f32; 2] = [-1000.0, 1000.0];
+
+/// How the swing's position adds up.
+#[derive(Clone, Copy, Debug)]
+enum Swing {
+    Motor,
+    Cylinder { cylinder: SwingCylinder<f32>, stroke: [f32; 2] },
+}
+
+/// The fence stage.
+#[derive(Clone, Debug)]
+pub struct Fence {
+    sweep: Sweep,
+    swing: Swing,
+    /// Swing, boom, arm, bucket.
+    to_come: [ToCome; 4],
+    /// Where the actuators were measured last, and between which ends; a motor counts from wherever it is.
+    positions: [f32; 4],
+    travels: [[f32; 2]; 4],
+}
+
+impl Fence {
+    pub(crate) fn new(
+        p: &FenceParameters,
+        geometry: &kinematics_core::PinGeometry,
+        machine: &Machine<f32>,
+        valves: &[[ValveDirection; 2]; 4],
+    ) -> Result<Self, ParameterError> {
+        let g = geometry;
+        let range = |stroke: kinematics_core::geometry::Stroke| [stroke.min_m as f32, stroke.max_m as f32];
+        let swing = match (machine.swing_cylinder(), g.swing) {
+            (Some(&cylinder), Some(pins)) => Swing::Cylinder { cylinder, stroke: range(pins.stroke) },
+            _ => Swing::Motor,
+        };
+        let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(range);
+        let [boom, arm, bucket] = strokes;
+        let of_swing = match &swing {
+            Swing::Motor => ENDLESS,
+            Swing::Cylinder { stroke, .. } => *stroke,
+        };
+        Ok(Self {
+            sweep: Sweep::new(p, geometry, valves)?,
+            swing,
+            positions: [0.0; 4],
+            travels: [of_swing, boom, arm, bucket],
+            to_come: valves.map(|valve| ToCome::new(&valve, p.dead_time_s, p.lag_s)),
+        })
+    }
+
+    /// The wanted speeds, reduced where a limit asks for it.
+    ///
+    /// # Errors
+    /// [`Fault::Geometry`] where the pose ahead does not exist.
+    pub fn limit(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Result<Fenced, Fault> {
+        self.weigh(machine, sensed, wanted).ok_or(Fault::Geometry)
+    }
+
+    /// Forgets what was near: nothing passes until every limit has been weighed again.
+    pub fn reset(&mut self) {
+        self.sweep.reset();
+    }
+
+    fn weigh(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Option<Fenced> {
+        let measured = sensed.lengths;
+        let of_swing = match &self.swing {
+            Swing::Motor => 0.0,
+            Swing::Cylinder { cylinder, .. } => cylinder.length(sensed.swing).ok()?,
+        };
+        self.positions = [of_swing, measured.boom, measured.arm, measured.bucket];
+        let [turning, boom, arm, bucket] = self.to_come.each_ref().map(ToCome::travel);
+        let [_, of_boom, of_arm, of_bucket] = self.travels;
+        let at = |length: f32, travel: f32, [low, high]: [f32; 2]| limited(length + travel, low, high);
+        let lengths = Cylinders {
+            boom: at(measured.boom, boom, of_boom),
+            arm: at(measured.arm, arm, of_arm),
+            bucket: at(measured.bucket, bucket, of_bucket),
+        };
+        let (swing, per_swing) = self.swing_ahead(sensed.swing, turning).ok()?;
+        let wanted = wanted.to_array();
+        let positions = [of_swing + turning, lengths.boom, lengths.arm, lengths.bucket];
+        let mut receding = [0.0; 4];
+        let actuators = self.to_come.iter().zip(positions.into_iter().zip(self.travels));
+        for ((part, wanted), (to_come, (position, [low, high]))) in receding.iter_mut().zip(wanted).zip(actuators) {
+            // At its stop, or before its spool has opened, an actuator makes up for no other's approach.
+            let moves = if wanted > 0.0 { position < high - NEAR_STOP } else { position > low + NEAR_STOP };
+            if moves && wanted != 0.0 {
+                *part = limited(to_come.speed() / wanted, 0.0, 1.0);
+            }
+        }
+        let ahead = Ahead { lengths, swing, per_swing };
+        self.sweep.step(machine, &ahead, wanted)?;
+        let (speeds, clearance_m) = self.sweep.limit(&ahead, wanted, &receding);
+        Some(Fenced { speeds: Speeds::from_array(speeds), clearance_m })
+    }
+
+    /// The swing this travel of its actuator further, and dθ1 by that travel there.
+    fn swing_ahead(&self, swing: Rotor<f32>, travel: f32) -> Result<(Rotor<f32>, f32), PoseError<f32>> {
+        match &self.swing {
+            Swing::Motor => {
+                let turns = travel * (0.5 * core::f32::consts::FRAC_1_PI);
+                Ok((swing * Rotor::from_turns(turns), 1.0))
+            }
+            Swing::Cylinder { cylinder, stroke: [low, high] } => {
+                let length = limited(cylinder.length(swing)? + travel, *low, *high);
+                Ok((cylinder.rotor(length)?, 1.0 / cylinder.moment_arm(length)?))
+            }
+        }
+    }
+
+    /// Counts what was really commanded this tick.
+    pub fn sent(&mut self, speeds: &Speeds) {
+        let speeds = self.to_come.iter_mut().zip(speeds.to_array());
+        for ((to_come, speed), (position, travel)) in speeds.zip(self.positions.into_iter().zip(self.travels)) {
+            to_come.command(speed, position, travel);
+        }
+    }
+}

@@ -1,0 +1,388 @@
+//! A fence: half-spaces and balls the whole linkage keeps clear of, and limits of the swing, kept by slowing the approach.
+//!
+//! Every strip's clearance d to every limit, less a margin, bounds its speed of approach: after the time t until a command acts,
+//! decelerating at a, the machine stops within `v²/2a + v·t = d`, so `v ≤ 2d / (t + √(t² + 2d/a))`. A command only shrinks.
+//! Where a limit's speed is exceeded, the actuators that approach it are scaled by one factor, those that move along it or away
+//! are not; a fixed number of rounds over all limits, then one factor for everything that satisfies whatever is left.
+//!
+//! The clearances are to be taken where the machine will stand once everything already commanded has arrived: then nothing is
+//! still to come, and the command alone decides.
+//!
+//! Weighing every strip against every limit is most of the work and may be spread over several control periods:
+//! [`Fence::weigh`] takes one limit at a time and keeps the few approaches that matter ([`Nearby`]), which [`Fence::limit`] then
+//! follows to first order as the machine moves on.
+//!
+//! ```
+//! use kinematics_core::planning::clearance::HalfSpace;
+//! use kinematics_core::planning::fence::{Fence, Nearby, Reaches, Scene, Stopping};
+//! use kinematics_core::planning::limits::{Limits, SwingRange};
+//! use kinematics_core::planning::outline::{Outline, OutlineShape};
+//! use kinematics_core::world::BasePlacement;
+//! use kinematics_core::{Cylinders, Machine, PinGeometry, Rotor};
+//! # fn main() -> Result<(), Box<dyn core::error::Error>> {
+//! let geometry = PinGeometry::EXACT_MINI;
+//! let machine = Machine::<f32>::new(&geometry)?;
+//! let outline = Outline::<f32>::new(&geometry, &OutlineShape::of(&geometry))?;
+//! let cylinders = Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 };
+//! let placed = outline.place(&machine, &machine.cylinders_to_joints(&cylinders)?)?;
+//! let [boom, arm, bucket] = machine.moment_arms(&cylinders)?.transmissions()?;
+//!
+//! // A ceiling 10 cm above the linkage, and no swinging beyond 60° to either side.
+//! let base = BasePlacement::level(Rotor::IDENTITY, [0.0; 3]);
+//! let ceiling = |offset| Some(HalfSpace { normal: [0.0, 0.0, 1.0], offset });
+//! let mut limits = Limits::NONE;
+//! limits.half_spaces[0] = ceiling(5.0);
+//! let room = limits.closest(&placed.strips, Rotor::IDENTITY, &base).ok_or("no ceiling")?;
+//! limits.half_spaces[0] = ceiling(5.0 - room + 0.1);
+//! limits.swing = Some(SwingRange::new(-60.0, 60.0));
+//! let stopping = Stopping { deceleration: 1.0, reaction_s: 0.15, margin: 0.02 };
+//! let turning = Stopping { deceleration: 0.5, reaction_s: 0.15, margin: 0.01 };
+//! // What 10 cm before a limit may go on at: 0.1 = v²/2 + 0.15·v.
+//! let v: f32 = stopping.speed(0.1 + 0.02);
+//! assert!((v * v / 2.0 + 0.15 * v - 0.1).abs() < 1e-6);
+//! let fence = Fence { limits, stopping, turning };
+//! let limit = |swing: f32, wanted, moved| {
+//!     let scene = Scene {
+//!         swing: Rotor::from_degrees(swing), base, transmissions: [1.0, boom, arm, bucket], wish: wanted, spare: [0.0; 4],
+//!     };
+//!     let mut nearby = Nearby::none();
+//!     fence.weigh_all(&placed.strips, &scene, &mut nearby);
+//!     (fence.limit(&nearby, &wanted, &[1.0; 4], &moved), nearby.closest)
+//! };
+//!
+//! // Raising the boom is slowed before the ceiling; lowering it, and swinging amid the range, are free.
+//! let (up, closest) = limit(0.0, [0.3, 0.2, 0.0, 0.0], [0.0; 4]);
+//! assert!(up[1] < 0.2 && up[1] > 0.0 && up[0] == 0.3, "{up:?}");
+//! assert_eq!(limit(0.0, [0.3, -0.2, 0.0, 0.0], [0.0; 4]).0, [0.3, -0.2, 0.0, 0.0]);
+//! // A boom cylinder that has moved a millimetre further since then may go on slower.
+//! assert!(limit(0.0, [0.0, 0.2, 0.0, 0.0], [0.0, 0.001, 0.0, 0.0]).0[1] < up[1]);
+//! // At the end of the range only the way back is open.
+//! assert_eq!(limit(60.0, [0.3, 0.0, 0.0, 0.0], [0.0; 4]).0[0], 0.0);
+//! assert_eq!(limit(60.0, [-0.3, 0.0, 0.0, 0.0], [0.0; 4]).0[0], -0.3);
+//! // The strip nearest to the ceiling is this far off it.
+//! assert_eq!(limits.closest(&placed.strips, Rotor::IDENTITY, &base), Some(closest));
+//! // Limits may be weighed one at a time, by their number.
+//! let scene = Scene {
+//!     swing: Rotor::IDENTITY, base, transmissions: [1.0, boom, arm, bucket], wish: [0.3, 0.2, 0.0, 0.0], spare: [0.0; 4],
+//! };
+//! let mut nearby = Nearby::none();
+//! let reaches = fence.reaches(&placed.strips, &scene);
+//! assert!(reaches != Reaches::none());
+//! fence.weigh(0, (&placed.strips, &reaches), 0..13, &scene, &mut nearby);
+//! assert_eq!(nearby.closest, closest);
+//! # Ok(())
+//! # }
+//! ```
+
+use core::ops::Range;
+
+use super::clearance::Clearance;
+use super::limits::{HALF_SPACES, Limits, SPHERES};
+use super::nearby::NEARBY;
+use super::outline::{OWN_ENDS, STRIPS, Strip};
+use crate::world::BasePlacement;
+use crate::{Real, Rotor};
+
+pub use super::nearby::Nearby;
+
+/// How many limits [`Fence::weigh`] takes one by one: half-spaces, then balls, then the swing's range.
+pub const LIMITS: usize = HALF_SPACES + SPHERES + 1;
+/// Rounds over all approaches before one factor settles what is left.
+const ROUNDS: usize = 2;
+
+/// How a motion can be stopped: in m and m/s, or rad and rad/s for the swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stopping<T> {
+    /// a, m/s².
+    pub deceleration: T,
+    /// t, before which a command may not act, s.
+    pub reaction_s: T,
+    /// What is kept of every distance, m.
+    pub margin: T,
+}
+
+impl<T: Real> Stopping<T> {
+    /// The fastest approach at this distance: the root of v²/2a + v·t = distance − margin, 0 within the margin.
+    #[inline]
+    pub fn speed(&self, distance: T) -> T {
+        self.speed_within(distance - self.margin)
+    }
+
+    /// The same of the distance less the margin.
+    #[inline]
+    fn speed_within(&self, room: T) -> T {
+        if room > T::ZERO {
+            let (t, twice) = (self.reaction_s, room + room);
+            twice / (t + (t * t + twice / self.deceleration).sqrt())
+        } else {
+            T::ZERO
+        }
+    }
+
+    /// 1/2a.
+    #[inline]
+    fn per_square(&self) -> T {
+        T::ONE / (self.deceleration + self.deceleration)
+    }
+}
+
+/// A fence with its ways of stopping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fence<T> {
+    /// What it keeps clear of.
+    pub limits: Limits<T>,
+    /// How every point of the linkage stops.
+    pub stopping: Stopping<T>,
+    /// How the swing stops before the ends of its range, rad.
+    pub turning: Stopping<T>,
+}
+
+/// Where limits are weighed: where the machine will stand once what is commanded has arrived, and what may be wanted there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene<T> {
+    /// The swing.
+    pub swing: Rotor<T>,
+    /// The machine in the world.
+    pub base: BasePlacement<T>,
+    /// dθ/dL of swing, boom, arm, bucket (1 for a joint's own rate).
+    pub transmissions: [T; 4],
+    /// The rates wanted of the actuators, or what bounds them, by sign and size. Approaches that only others could make are
+    /// not kept.
+    pub wish: [T; 4],
+    /// How far each actuator may have moved, either way, when the result is used for the last time, m or rad.
+    pub spare: [T; 4],
+}
+
+/// How far each strip can come with a scene's wish.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaches<T> {
+    /// Until the result is used for the last time, m; the same and what the strip needs to stop from its fastest, with the margin.
+    of_strips: [[T; 2]; STRIPS],
+}
+
+impl<T: Real> Reaches<T> {
+    /// None has one yet.
+    pub fn none() -> Self {
+        Self { of_strips: [[T::ZERO; 2]; STRIPS] }
+    }
+}
+
+/// What is wanted that exceeds a bound: each actuator's share of the approach, apart by its sign, and the fastest allowed.
+#[derive(Clone, Copy, Debug)]
+struct Bound<T> {
+    towards: [T; 4],
+    away: [T; 4],
+    fastest: T,
+}
+
+impl<T: Real> Bound<T> {
+    /// The approaching and the receding shares, scaled.
+    #[inline(always)]
+    fn parts(&self, scales: [T; 4]) -> (T, T) {
+        (sum(times(self.towards, scales)), sum(times(self.away, scales)))
+    }
+}
+
+#[inline(always)]
+fn sum<T: Real>([a, b, c, d]: [T; 4]) -> T {
+    (a + b) + (c + d)
+}
+
+/// Products of both, one by one.
+#[inline(always)]
+fn times<T: Real>([a, b, c, d]: [T; 4], [w, x, y, z]: [T; 4]) -> [T; 4] {
+    [a * w, b * x, c * y, d * z]
+}
+
+impl<T: Real> Fence<T> {
+    /// How far these strips can come with the scene's wish: farther off, no limit matters to them.
+    pub fn reaches(&self, strips: &[Strip<T>], scene: &Scene<T>) -> Reaches<T> {
+        let magnitude = |x: T| if x < T::ZERO { -x } else { x };
+        let (wish, spare) = (times(scene.wish, scene.transmissions), times(scene.spare, scene.transmissions));
+        let (wish, spare) = (wish.map(magnitude), spare.map(magnitude));
+        let per_square = self.stopping.per_square();
+        let mut reaches = Reaches::none();
+        for (reach, strip) in reaches.of_strips.iter_mut().zip(strips) {
+            let (mut fastest, mut longest) = (T::ZERO, T::ZERO);
+            for end in &strip.ends {
+                let [b, a, k] = end.per_joint.map(|v| v.norm_squared().sqrt());
+                let levers = [magnitude(end.at.x) + strip.lateral, b, a, k];
+                let (speed, way) = (sum(times(levers, wish)), sum(times(levers, spare)));
+                fastest = if speed > fastest { speed } else { fastest };
+                longest = if way > longest { way } else { longest };
+            }
+            let stops = fastest * (self.stopping.reaction_s + fastest * per_square);
+            *reach = [longest, stops + longest + self.stopping.margin];
+        }
+        reaches
+    }
+
+    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near. A number without a limit does
+    /// nothing; false then. `reaches` are those of the same strips and scene; of the strips, those within `part` are weighed.
+    pub fn weigh(
+        &self,
+        number: usize,
+        (strips, reaches): (&[Strip<T>], &Reaches<T>),
+        part: Range<usize>,
+        scene: &Scene<T>,
+        nearby: &mut Nearby<T>,
+    ) -> bool {
+        let mut weighing = Weighing::new(&self.stopping, scene, nearby);
+        // The teeth alone are one strip.
+        let own_ends = if strips.len() < STRIPS { &[[false, true]; STRIPS] } else { &OWN_ENDS };
+        let strips = strips.iter().zip(&reaches.of_strips).zip(own_ends).take(part.end).skip(part.start);
+        if let Some(Some(space)) = self.limits.half_spaces.get(number) {
+            let seen = space.seen(&scene.base, scene.swing);
+            for ((strip, reach), own) in strips {
+                for (clearance, _) in strip.to_half_space(&seen).iter().zip(own).filter(|&(_, &own)| own) {
+                    if weighing.matters(clearance.distance, reach) {
+                        weighing.keep(clearance, reach);
+                    }
+                }
+            }
+            return true;
+        }
+        let ball = number.checked_sub(HALF_SPACES).and_then(|number| self.limits.spheres.get(number));
+        if let Some(Some(ball)) = ball {
+            let seen = ball.seen(&scene.base, scene.swing);
+            for ((strip, reach), _) in strips {
+                let facing = strip.facing(&seen);
+                if weighing.matters(facing.distance, reach) {
+                    weighing.keep(&facing.clearance(strip), reach);
+                }
+            }
+            return true;
+        }
+        match &self.limits.swing {
+            Some(range) if number + 1 == LIMITS => {
+                let [per_swing, ..] = scene.transmissions;
+                nearby.turning = Some((range.distances(scene.swing), per_swing));
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Weighs all limits.
+    pub fn weigh_all(&self, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) {
+        let reaches = self.reaches(strips, scene);
+        for number in 0..LIMITS {
+            self.weigh(number, (strips, &reaches), 0..STRIPS, scene, nearby);
+        }
+    }
+
+    /// What is let through of the wanted rates of swing, boom, arm, bucket: each between 0 and what was wanted. `moved` is how far
+    /// the actuators are from where `nearby` was weighed; `receding`, which part (0 to 1) of its wanted rate each actuator has reached: only
+    /// that much makes up for another's approach.
+    pub fn limit(&self, nearby: &Nearby<T>, wanted: &[T; 4], receding: &[T; 4], moved: &[T; 4]) -> [T; 4] {
+        let rates = self.turning_limited(nearby, wanted, moved);
+        let per_square = self.stopping.per_square();
+        let unused = Bound { towards: [T::ZERO; 4], away: [T::ZERO; 4], fastest: T::ZERO };
+        let mut exceeded = [unused; NEARBY + 1];
+        let mut count = 0;
+        for approach in nearby.iter() {
+            let shares = approach.at_most(&rates);
+            let by = shares.map(|share| if share > T::ZERO { share } else { T::ZERO });
+            let towards = sum(by);
+            let room = approach.room - sum(approach.at_most(moved));
+            if towards * (self.stopping.reaction_s + towards * per_square) > room
+                && let Some(slot) = exceeded.get_mut(count)
+            {
+                let away = shares.map(|share| if share > T::ZERO { T::ZERO } else { share });
+                let fastest = self.stopping.speed_within(room);
+                *slot = Bound { towards: by, away: times(away, *receding), fastest };
+                count += 1;
+            }
+        }
+        if count == 0 { rates } else { times(scales(exceeded.get(..count).unwrap_or(&exceeded)), rates) }
+    }
+
+    /// The wanted rates, the swing's kept within its range.
+    fn turning_limited(&self, nearby: &Nearby<T>, wanted: &[T; 4], moved: &[T; 4]) -> [T; 4] {
+        let [wanted, boom, arm, bucket] = *wanted;
+        let mut swing = wanted;
+        if let Some(([right, left], per_swing)) = nearby.turning {
+            let [moved, ..] = *moved;
+            let (turning, turned) = (wanted * per_swing, moved * per_swing);
+            let (distance, rate) =
+                if turning > T::ZERO { (left - turned, turning) } else { (right + turned, -turning) };
+            let fastest = self.turning.speed(distance);
+            if rate > fastest {
+                swing = wanted * (fastest / rate);
+            }
+        }
+        [swing, boom, arm, bucket]
+    }
+}
+
+/// Every actuator's factor, so that all bounds are kept.
+fn scales<T: Real>(exceeded: &[Bound<T>]) -> [T; 4] {
+    let mut scales = [T::ONE; 4];
+    for _ in 0..ROUNDS {
+        let mut kept = true;
+        for bound in exceeded {
+            let (towards, away) = bound.parts(scales);
+            if towards + away > bound.fastest {
+                // towards > fastest − away ≥ 0
+                let factor = (bound.fastest - away) / towards;
+                for (scale, &share) in scales.iter_mut().zip(&bound.towards) {
+                    *scale = if share > T::ZERO { *scale * factor } else { *scale };
+                }
+                kept = false;
+            }
+        }
+        if kept {
+            return scales;
+        }
+    }
+    let mut common = T::ONE;
+    for bound in exceeded {
+        let (towards, away) = bound.parts(scales);
+        let approach = towards + away;
+        if approach * common > bound.fastest {
+            common = bound.fastest / approach;
+        }
+    }
+    scales.map(|scale| scale * common)
+}
+
+/// One limit's clearances on their way to what is kept.
+struct Weighing<'a, T> {
+    nearby: &'a mut Nearby<T>,
+    transmissions: [T; 4],
+    /// The wish as joint rates.
+    wish: [T; 4],
+    margin: T,
+    reaction_s: T,
+    per_square: T,
+}
+
+impl<'a, T: Real> Weighing<'a, T> {
+    fn new(stopping: &Stopping<T>, scene: &Scene<T>, nearby: &'a mut Nearby<T>) -> Self {
+        let transmissions = scene.transmissions;
+        let (margin, reaction_s, per_square) = (stopping.margin, stopping.reaction_s, stopping.per_square());
+        Self { nearby, transmissions, wish: times(scene.wish, transmissions), margin, reaction_s, per_square }
+    }
+
+    /// Notes a distance; whether it is within the strip's reach.
+    #[inline(always)]
+    fn matters(&mut self, distance: T, [_, reach]: &[T; 2]) -> bool {
+        self.nearby.closest = if distance < self.nearby.closest { distance } else { self.nearby.closest };
+        distance < *reach
+    }
+
+    /// Keeps an approach that the wish could make too fast before the strip has gone its way.
+    #[inline(always)]
+    fn keep(&mut self, clearance: &Clearance<T>, [way, _]: &[T; 2]) {
+        let mut towards = T::ZERO;
+        for (&by, &wish) in clearance.approach.iter().zip(&self.wish) {
+            let share = by * wish;
+            towards = if share > T::ZERO { towards + share } else { towards };
+        }
+        let room = clearance.distance - self.margin;
+        let demand = towards * (self.reaction_s + towards * self.per_square) + *way - room;
+        if demand > T::ZERO {
+            self.nearby.keep(clearance, &self.transmissions, room, demand);
+        }
+    }
+}
