@@ -1,5 +1,7 @@
 //! The application on a board: everything in, one tick, everything out, and last the watchdog.
 
+use core::borrow::BorrowMut;
+
 use embedded_can::nb::Can;
 
 use super::signals::Measured;
@@ -10,15 +12,16 @@ use crate::can::dm1::ActiveFaults;
 use crate::can::inbox::Inbox;
 use crate::can::{CanFrame, Node};
 use crate::io::{Inputs, Outputs, Request};
+use crate::motion::Followers;
 use crate::{Ecu, ParameterError, Parameters};
 
 /// CAN frames taken in a tick: 500 kbit/s carry no more than four in a millisecond.
 const FRAMES: usize = 4;
 
-/// The application and its place on the bus.
+/// The application and its place on the bus; `F` as in [`Ecu`].
 #[derive(Clone, Debug)]
-pub struct Controller {
-    ecu: Ecu,
+pub struct Controller<F = Followers> {
+    ecu: Ecu<F>,
     node: Node,
     /// Moves on with every good command, as long as everything the command needs is fresh.
     alive: u8,
@@ -46,13 +49,28 @@ impl core::fmt::Display for ControllerError {
 impl core::error::Error for ControllerError {}
 
 impl Controller {
+    /// [`Controller::with`] followers of its own.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new(parameters: &Parameters, addresses: Addresses, name: &Name) -> Result<Self, ControllerError> {
+        Self::with(parameters, addresses, name, Followers::new())
+    }
+}
+
+impl<F: BorrowMut<Followers>> Controller<F> {
     /// Builds the application and its node.
     ///
     /// # Errors
     /// The first parameter, address or field of the NAME at fault, by name and range.
-    pub fn new(parameters: &Parameters, addresses: Addresses, name: &Name) -> Result<Self, ControllerError> {
+    pub fn with(
+        parameters: &Parameters,
+        addresses: Addresses,
+        name: &Name,
+        followers: F,
+    ) -> Result<Self, ControllerError> {
         Ok(Self {
-            ecu: Ecu::new(parameters).map_err(ControllerError::Parameter)?,
+            ecu: Ecu::with(parameters, followers).map_err(ControllerError::Parameter)?,
             node: Node::new(addresses, name).map_err(ControllerError::Address)?,
             alive: 0,
             last_modes_taken: 0,

@@ -5,10 +5,10 @@ mod app {
     use crate::flash::ParameterFlash;
     use crate::pins::{self, Chips, Ecu405, StartError};
     use crate::{log, safe_state, target};
-    use firmware::TICKS_PER_S;
     use firmware::board::Controller;
     use firmware::can::address::{Addresses, Name};
     use firmware::store::Store;
+    use firmware::{Followers, TICKS_PER_S};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -25,11 +25,11 @@ mod app {
     #[local]
     struct Local {
         board: Ecu405,
-        controller: Controller,
+        controller: Controller<&'static mut Followers>,
         timer: CounterHz<TIM2>,
     }
 
-    #[init]
+    #[init(local = [followers: Followers = Followers::new()])]
     fn init(mut cx: init::Context) -> (Shared, Local) {
         target::stack_guard::arm(&mut cx.core.MPU);
         let mut rcc = pins::clocks(cx.device.RCC);
@@ -39,7 +39,7 @@ mod app {
             (cx.device.TIM3, cx.device.TIM4),
             &mut rcc,
         );
-        let controller = controller(ParameterFlash::new(cx.device.FLASH));
+        let controller = controller(ParameterFlash::new(cx.device.FLASH), cx.local.followers);
         let chips = Chips { spi: cx.device.SPI1, dma: cx.device.DMA2, can: cx.device.CAN1, watchdog: cx.device.IWDG };
         let board = match pins::start(chips, gpio, outputs, &mut rcc) {
             Ok(board) => board,
@@ -55,13 +55,13 @@ mod app {
     }
 
     /// The controller of the stored parameters; without them nothing ever moves.
-    fn controller(flash: ParameterFlash) -> Controller {
+    fn controller(flash: ParameterFlash, followers: &'static mut Followers) -> Controller<&'static mut Followers> {
         let Ok(mut store) = Store::new(flash) else { safe_state::halt(&|| defmt::error!("no store in these sectors")) };
         let Ok(loaded) = store.load() else { safe_state::halt(&|| defmt::error!("no approved parameters in flash")) };
         let Ok(parameters) = loaded.record.parameters_for(BUCKET) else {
             safe_state::halt(&|| defmt::error!("no such bucket"))
         };
-        match Controller::new(&parameters, Addresses::DEFAULT, &NAME) {
+        match Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers) {
             Ok(controller) => controller,
             Err(_) => safe_state::halt(&|| defmt::error!("the parameters are refused")),
         }
