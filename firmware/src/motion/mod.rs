@@ -69,7 +69,12 @@ impl Followers {
 
     // Not inlined, so that the stack holds either's planning but not both.
     #[inline(never)]
-    fn plan_reach(&mut self, reach: &ReachParameters, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+    fn plan_reach(
+        &mut self,
+        reach: &ReachParameters,
+        p: &Parameters,
+        machine: &Machine<f32>,
+    ) -> Result<(), ParameterError> {
         self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.valves, &p.motion)?));
         Ok(())
     }

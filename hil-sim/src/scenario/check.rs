@@ -159,9 +159,8 @@ fn reach_ranges(r: &Reach) -> Result<(), String> {
 
 fn obstacle_ranges(number: usize, o: &Obstacle) -> Result<(), String> {
     let far = [-50.0, 50.0];
-    let fields =
-        [("x_m", o.x_m, far), ("y_m", o.y_m, far), ("z_m", o.z_m, far), ("radius_m", o.radius_m, [0.0, 50.0])];
-    fields.into_iter().try_for_each(|(field, value, range)| {
-        within(&[(&format!("obstacle[{number}].{field}"), value, range)])
-    })
+    let fields = [("x_m", o.x_m, far), ("y_m", o.y_m, far), ("z_m", o.z_m, far), ("radius_m", o.radius_m, [0.0, 50.0])];
+    fields
+        .into_iter()
+        .try_for_each(|(field, value, range)| within(&[(&format!("obstacle[{number}].{field}"), value, range)]))
 }

@@ -118,8 +118,7 @@ impl SpeedTable {
         if self.ahead.iter().any(|cap| u64::from(*cap) < 4 * choice.step) {
             return false;
         }
-        let reach =
-            |speed: u32| (u64::from(speed) * (choice.average as u64 + 1)).div_ceil(1 << CELL_BITS) as usize;
+        let reach = |speed: u32| (u64::from(speed) * (choice.average as u64 + 1)).div_ceil(1 << CELL_BITS) as usize;
         spread(&self.ahead, &mut self.cap, reach);
         least_ahead(&self.cap, &mut self.ahead, reach(fastest));
         let gained = self.gained();

@@ -73,7 +73,12 @@ mod app {
     }
 
     /// One exchange with the harness.
-    fn exchange(link: &mut Link, ecu: &mut Ecu<&'static mut Followers>, stopwatch: &Stopwatch, started_ns: u32) -> Result<(), LinkLost> {
+    fn exchange(
+        link: &mut Link,
+        ecu: &mut Ecu<&'static mut Followers>,
+        stopwatch: &Stopwatch,
+        started_ns: u32,
+    ) -> Result<(), LinkLost> {
         let mut message = [0; 1 + INPUT_BYTES];
         link.read(&mut message)?;
         let [kind, inputs @ ..] = message;
