@@ -2,6 +2,8 @@
 
 use cross_tests::rig::scenario;
 use firmware::dig::DigParameters;
+use firmware::moves::{MoveParameters, Pitch};
+use firmware::parameters::ReachParameters;
 use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
@@ -53,6 +55,50 @@ const SPOILT: [(&str, Spoil); 36] = [
 fn every_value_out_of_its_range_is_refused_by_name() {
     for (field, spoil) in SPOILT {
         let mut parameters = scenario("dig").parameters;
+        spoil(&mut parameters);
+        match Ecu::new(&parameters) {
+            Ok(_) => panic!("{field} was accepted"),
+            Err(error) => assert!(error.to_string().contains(&format!("`{field}")), "{field}: {error}"),
+        }
+    }
+}
+
+fn reach(p: &mut Parameters) -> &mut ReachParameters {
+    p.reach.as_mut().expect("a target")
+}
+
+fn planned(p: &mut Parameters) -> &mut MoveParameters {
+    p.planned_move.as_mut().expect("a move")
+}
+
+const SPOILT_REACH: [(&str, Spoil); 7] = [
+    ("reach.target.x", |p| reach(p).target.x = f64::NAN),
+    ("reach.target.y", |p| reach(p).target.y = 60.0),
+    ("reach.target.z", |p| reach(p).target.z = f64::INFINITY),
+    ("reach.tolerance_m", |p| reach(p).tolerance_m = 0.0),
+    ("reach.obstacle.x", |p| reach(p).obstacles[0].as_mut().expect("an obstacle").x = f64::NAN),
+    ("reach.obstacle.radius", |p| reach(p).obstacles[0].as_mut().expect("an obstacle").radius = -1.0),
+    ("reach.speeds_rad_s", |p| reach(p).speeds_rad_s[3] = f64::NAN),
+];
+
+const SPOILT_MOVE: [(&str, Spoil); 10] = [
+    ("move.start_m", |p| planned(p).start_m[1] = f64::NAN),
+    ("move.start_pitch_deg", |p| planned(p).start_pitch_deg = 1e9),
+    ("move.turn_per_knot_deg", |p| planned(p).turn_per_knot_deg = 0.0),
+    ("move.lower_deg", |p| planned(p).pitch = Pitch::Bounded { lower_deg: 0.0, upper_deg: 10.0 }),
+    ("move.upper_deg", |p| planned(p).pitch = Pitch::Bounded { lower_deg: -180.0, upper_deg: f64::NAN }),
+    ("move`: `weights", |p| planned(p).weights = [0.0; 3]),
+    ("move`: `speed_mps", |p| planned(p).speed_mps[2][1] = f64::NAN),
+    ("move`: `acceleration_mps2", |p| planned(p).acceleration_mps2[0] = 0.0),
+    ("move`: `jerk_mps3", |p| planned(p).jerk_mps3[1] = -1.0),
+    ("move`: `areas_m2", |p| planned(p).areas_m2[0][0] = f64::NAN),
+];
+
+#[test]
+fn what_is_wrong_with_a_target_or_a_move_is_refused_by_name() {
+    let cases = SPOILT_REACH.map(|case| ("obstacle-over", case));
+    for (name, (field, spoil)) in cases.into_iter().chain(SPOILT_MOVE.map(|case| ("move-least-effort", case))) {
+        let mut parameters = scenario(name).parameters;
         spoil(&mut parameters);
         match Ecu::new(&parameters) {
             Ok(_) => panic!("{field} was accepted"),

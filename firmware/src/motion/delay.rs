@@ -29,10 +29,10 @@ impl DelayLine {
     /// Takes the value of `tick`, counted from 1, one after the other, and tells the delayed one; before the first it is 0.
     pub(super) fn pass(&mut self, tick: u32, value: f32) -> f32 {
         let every = NonZeroU32::MIN.saturating_add(self.between);
-        if tick % every == 0 {
-            if let Some(kept) = self.kept.get_mut((tick / every) as usize % KEPT) {
-                *kept = value;
-            }
+        if tick % every == 0
+            && let Some(kept) = self.kept.get_mut((tick / every) as usize % KEPT)
+        {
+            *kept = value;
         }
         let Some(then) = tick.checked_sub(self.ticks).filter(|then| *then > 0) else { return 0.0 };
         let (number, beyond) = (then / every, then % every);
