@@ -88,7 +88,8 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     assert!(figures.instructions_per_tick.max <= 1_960);
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 16 * 1024);
     // 156 kB and a twentieth: the writing of numbers in refusals takes 22 kB of it.
-    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 160 * 1024);
+    // Most of it is construction: planners, validation, error texts. The STM32F405 has 1 MiB.
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 208 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
 }
 
