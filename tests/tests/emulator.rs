@@ -79,7 +79,7 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     println!("{figures:?}");
     assert!(figures.instructions_per_tick.max <= 1_960);
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 16 * 1024);
-    // 156 kB and a twentieth: the writing of numbers in refusals takes 22 kB of it.
+    // 156,216 bytes and a twentieth.
     assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 160 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
 }
