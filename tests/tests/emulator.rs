@@ -85,9 +85,9 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     let (_, figures) = on_emulator(&scenario, 1, &controller());
     println!("{figures:?}");
     assert!(figures.instructions_per_tick.max <= 3_000);
-    // The peak is at construction: 12 KiB of a move's tables are handed on by value several times, of 128 KiB of RAM.
-    assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 64 * 1024);
-    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 160 * 1024);
+    // The peak is at construction: 12 KiB of a move's tables, and a fence's 4 KiB of moves under way, are handed on by value several times, of 128 KiB of RAM.
+    assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 100 * 1024);
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 203 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
 }
 
