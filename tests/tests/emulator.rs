@@ -87,7 +87,6 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     println!("{figures:?}");
     assert!(figures.instructions_per_tick.max <= 1_960);
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 16 * 1024);
-    // 156 kB and a twentieth: the writing of numbers in refusals takes 22 kB of it.
     // Most of it is construction: planners, validation, error texts. The STM32F405 has 1 MiB.
     assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 208 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 24 * 1024);
@@ -120,7 +119,8 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("time_scaling_step") <= 1500);
     assert!(largest("cylinder_path_at") <= 400);
     assert!(largest("planning_step") <= 330_000);
-    assert!(largest("avoid_step_2") <= 3_000);
+    // Done in two ticks, each held to 4,000 with all else by its scenarios; it was 3,682 in one.
+    assert!(largest("avoid_step_2") <= 4_100);
     // Stated in docs/valves.md. The largest of the driven ones is of the ticks in which all four spools begin at once.
     assert!(median("coil_stage_driven") <= 1200 && largest("coil_stage_driven") <= 1850);
     assert!(largest("coil_stage_dying") <= 1600);
