@@ -21,7 +21,7 @@ pub enum Proof {
     NoClearPose,
     /// There is a clear pose, but a flood from the start over a grid of all poses does not come to it.
     NoPathOnGrid,
-    /// The grid has a path: the planner owes an answer.
+    /// The places of the grid hang together; between them nothing is checked. The planner owes an answer.
     PathOnGrid,
 }
 
@@ -45,7 +45,8 @@ impl Kit {
         if self.flood(scene, &grid, &goals) { Proof::PathOnGrid } else { Proof::NoPathOnGrid }
     }
 
-    fn clear_poses(&self, scene: &Scene) -> Vec<[Rotor<f64>; 4]> {
+    /// Clear poses at the target, by their pitch.
+    pub(super) fn clear_poses(&self, scene: &Scene) -> Vec<[Rotor<f64>; 4]> {
         let t = scene.target;
         let reach = t.x.hypot(t.y);
         let ahead = Rotor { cos: t.x / reach, sin: t.y / reach };
