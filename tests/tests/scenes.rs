@@ -65,3 +65,15 @@ fn the_controller_reaches_past_the_obstacle_through_valves_that_lag() {
         assert!(summary.smallest_clearance_m.is_some_and(|clearance| clearance > 0.02), "{summary:?}");
     }
 }
+
+#[test]
+fn where_no_route_is_found_a_look_says_whether_one_aim_on_the_way_would_have_done() {
+    let file = MachineFile::load("frankel").unwrap_or_else(|error| panic!("{error}"));
+    let kit = Kit::new(&file.geometry).unwrap_or_else(|error| panic!("{error}"));
+    let outcome = kit.play(&kit.scene(1, 4869), |_| {});
+    assert_eq!(outcome.ended, Ended::NoRoute);
+    let look = outcome.look.unwrap_or_else(|| panic!("{outcome:?}"));
+    assert!(!look.about_the_axis && look.arrived > 0 && look.arrived < look.tried, "{look:?}");
+    // A scene that is reached needs none.
+    assert!(kit.play(&kit.scene(1, 0), |_| {}).look.is_none());
+}

@@ -25,7 +25,10 @@ pub fn write_scene(
     page.note(super::SIMULATION);
     page.facts(&[
         ("Ended", format!("{:?}", outcome.ended)),
-        ("Smallest clearance", format!("{:.1} mm", 1e3 * outcome.smallest_clearance_m)),
+        ("Smallest clearance", {
+            let clearance_m = outcome.smallest_clearance_m;
+            if clearance_m.is_finite() { format!("{:.1} mm", 1e3 * clearance_m) } else { "it did not move".to_owned() }
+        }),
         ("Planning before motion", format!("{:.2} s", outcome.planning_s)),
         ("Motion", format!("{:.2} s", outcome.motion_s)),
     ]);

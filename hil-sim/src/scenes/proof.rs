@@ -10,8 +10,8 @@ use super::generate::{Kit, Scene};
 
 /// Pitches tried: nearly twice as dense as the planner's finest.
 const PITCHES: u32 = 2880;
-/// Places of swing, boom, arm, bucket on the grid.
-const GRID: [usize; 4] = [60, 21, 21, 21];
+/// Places of swing, boom, arm, bucket on the grid, and on the one tried where that has no path.
+const GRIDS: [[usize; 4]; 2] = [[60, 21, 21, 21], [120, 41, 41, 41]];
 
 /// The search's word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -19,9 +19,9 @@ const GRID: [usize; 4] = [60, 21, 21, 21];
 pub enum Proof {
     /// None of the pitches gives a pose within the stroke that is clear by what the planner asks for.
     NoClearPose,
-    /// There is a clear pose, but a flood from the start over a grid of all poses does not come to it.
+    /// There is a clear pose, but a flood from the start over a grid of all poses does not come to it, nor over one twice as fine.
     NoPathOnGrid,
-    /// The grid has a path: the planner owes an answer.
+    /// The places of the grid hang together; between them nothing is checked. The planner owes an answer.
     PathOnGrid,
 }
 
@@ -30,6 +30,7 @@ type Node = [usize; 4];
 
 /// All poses of the grid, by axis.
 struct Grid {
+    sizes: Node,
     axes: [Vec<Rotor<f64>>; 4],
     all_round: bool,
 }
@@ -41,11 +42,12 @@ impl Kit {
         if goals.is_empty() {
             return Proof::NoClearPose;
         }
-        let grid = self.grid();
-        if self.flood(scene, &grid, &goals) { Proof::PathOnGrid } else { Proof::NoPathOnGrid }
+        let path = GRIDS.into_iter().any(|sizes| self.flood(scene, &self.grid(sizes), &goals));
+        if path { Proof::PathOnGrid } else { Proof::NoPathOnGrid }
     }
 
-    fn clear_poses(&self, scene: &Scene) -> Vec<[Rotor<f64>; 4]> {
+    /// Clear poses at the target, by their pitch.
+    pub(super) fn clear_poses(&self, scene: &Scene) -> Vec<[Rotor<f64>; 4]> {
         let t = scene.target;
         let reach = t.x.hypot(t.y);
         let ahead = Rotor { cos: t.x / reach, sin: t.y / reach };
@@ -64,12 +66,12 @@ impl Kit {
         tries.filter_map(pose).collect()
     }
 
-    fn grid(&self) -> Grid {
+    fn grid(&self, sizes: Node) -> Grid {
         let g = &self.geometry;
         let along = |stroke: Stroke, i: usize, of: usize| {
             stroke.min_m + (stroke.max_m - stroke.min_m) * i as f64 / (of - 1) as f64
         };
-        let [swings, booms, arms, buckets] = GRID;
+        let [swings, booms, arms, buckets] = sizes;
         let joints = |boom: f64, arm: f64, bucket: f64| -> Joints<f64> {
             let level = Joints { boom: Rotor::IDENTITY, arm: Rotor::IDENTITY, bucket: Rotor::IDENTITY };
             self.machine.cylinders_to_joints(&Cylinders { boom, arm, bucket }).unwrap_or(level)
@@ -80,6 +82,7 @@ impl Kit {
             _ => Rotor::from_turns(i as f64 / swings as f64),
         };
         Grid {
+            sizes,
             axes: [
                 (0..swings).map(swing).collect(),
                 (0..booms).map(|i| joints(along(b, i, booms), a.min_m, k.min_m).boom).collect(),
@@ -92,17 +95,17 @@ impl Kit {
 
     /// Whether the free places around the start and those around a goal hang together.
     fn flood(&self, scene: &Scene, grid: &Grid, goals: &[[Rotor<f64>; 4]]) -> bool {
-        let size: usize = GRID.iter().product();
+        let size: usize = grid.sizes.iter().product();
         let mut wanted = vec![false; size];
         for goal in goals {
             for node in grid.around(grid.nearest(goal)) {
-                wanted[index(node)] = true;
+                wanted[grid.index(node)] = true;
             }
         }
         let mut seen = vec![false; size];
         let mut edge: VecDeque<Node> = grid.around(grid.nearest(&scene.start)).into();
         while let Some(node) = edge.pop_front() {
-            let at = index(node);
+            let at = grid.index(node);
             if std::mem::replace(&mut seen[at], true) {
                 continue;
             }
@@ -119,11 +122,11 @@ impl Kit {
     }
 }
 
-fn index(node: Node) -> usize {
-    node.iter().zip(GRID).fold(0, |sum, (&i, of)| sum * of + i)
-}
-
 impl Grid {
+    fn index(&self, node: Node) -> usize {
+        node.iter().zip(self.sizes).fold(0, |sum, (&i, of)| sum * of + i)
+    }
+
     fn nearest(&self, joints: &[Rotor<f64>; 4]) -> Node {
         std::array::from_fn(|axis| {
             let toward = |r: &Rotor<f64>| r.to_vec().dot(joints[axis].to_vec());
@@ -142,7 +145,7 @@ impl Grid {
     /// One step along one axis.
     fn neighbours(&self, node: Node) -> Vec<Node> {
         let mut all = Vec::with_capacity(8);
-        for (axis, of) in GRID.into_iter().enumerate() {
+        for (axis, of) in self.sizes.into_iter().enumerate() {
             let wraps = axis == 0 && self.all_round;
             for to in [node[axis].checked_add(1), node[axis].checked_sub(1).or(wraps.then_some(of - 1))] {
                 let to = to.map(|to| if wraps { to % of } else { to });

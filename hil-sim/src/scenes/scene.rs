@@ -7,6 +7,7 @@ use kinematics_core::planning::reach::{Progress, Reach, Target};
 use serde::Serialize;
 
 use super::generate::{Kit, Scene};
+use super::look::Look;
 use super::proof::Proof;
 
 /// The loop's period, s.
@@ -39,7 +40,9 @@ pub struct Outcome {
     pub ended: Ended,
     /// For what was not reached: what an independent search says.
     pub proof: Option<Proof>,
-    /// Smallest distance between hull and spheres while it moved, m.
+    /// For what was not reached although a clear pose is there.
+    pub look: Option<Look>,
+    /// Smallest distance between hull and spheres while it moved, m; infinite if it never did.
     pub smallest_clearance_m: f64,
     /// Planning before and between motion, s at one piece a tick.
     pub planning_s: f64,
@@ -66,16 +69,16 @@ pub struct Sample {
     pub clearance_m: f64,
 }
 
-fn to_f32(sphere: &Sphere<f64>) -> Sphere<f32> {
+pub(super) fn to_f32(sphere: &Sphere<f64>) -> Sphere<f32> {
     let Sphere { x, y, z, radius } = *sphere;
     Sphere { x: x as f32, y: y as f32, z: z as f32, radius: radius as f32 }
 }
 
-fn joints_f32(joints: &[Rotor<f64>; 4]) -> [Rotor<f32>; 4] {
+pub(super) fn joints_f32(joints: &[Rotor<f64>; 4]) -> [Rotor<f32>; 4] {
     joints.map(|r| Rotor { cos: r.cos as f32, sin: r.sin as f32 })
 }
 
-fn joints_f64(joints: &[Rotor<f32>; 4]) -> [Rotor<f64>; 4] {
+pub(super) fn joints_f64(joints: &[Rotor<f32>; 4]) -> [Rotor<f64>; 4] {
     joints.map(|r| Rotor { cos: r.cos.into(), sin: r.sin.into() })
 }
 
@@ -102,6 +105,7 @@ impl Kit {
             scene: scene.number,
             ended: played.ended,
             proof,
+            look: proof.is_some_and(|proof| proof != Proof::NoClearPose).then(|| self.look(scene)),
             smallest_clearance_m: played.clearance_m,
             planning_s: f64::from(played.planning) * f64::from(TICK_S),
             motion_s: f64::from(played.moving) * f64::from(TICK_S),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Ended, Outcome, Proof};
+use super::{Ended, Look, Outcome, Proof};
 
 /// The report of one machine.
 #[derive(Clone, Debug, Serialize)]
@@ -37,8 +37,44 @@ pub struct Tally {
     pub step_alone_stuck: usize,
     /// Planning before motion, s: the median and the longest of the scenes reached.
     pub planning_s: [f64; 2],
-    /// Numbers of the scenes that were neither reached nor blocked with proof, or that collided.
-    pub failing: Vec<u64>,
+    /// The scenes that were neither reached nor blocked with proof, or that collided.
+    pub failing: Vec<Failure>,
+}
+
+/// A scene that should not have ended as it did.
+#[derive(Clone, Debug, Serialize)]
+pub struct Failure {
+    /// Its number.
+    pub scene: u64,
+    /// How it ended.
+    pub ended: Ended,
+    /// Whether a grid has a path.
+    pub proof: Option<Proof>,
+    /// What a look at it shows.
+    pub look: Option<Look>,
+}
+
+impl Failure {
+    fn of(outcome: &Outcome) -> Self {
+        let Outcome { scene, ended, proof, look, .. } = *outcome;
+        Self { scene, ended, proof, look }
+    }
+
+    /// One line for people.
+    fn to_line(&self) -> String {
+        let ended = match self.ended {
+            Ended::Reached => "collided",
+            Ended::Blocked => "blocked",
+            Ended::NoRoute => "no route",
+            Ended::NotConverged => "not converged",
+        };
+        let grid = if self.proof == Some(Proof::PathOnGrid) { "path on the grid" } else { "no path on the grid" };
+        let look = self.look.map_or(String::new(), |look| {
+            let place = if look.about_the_axis { "about the swing axis" } else { "elsewhere" };
+            format!(", a sphere {place}, by one aim on the way {} of {}", look.arrived, look.tried)
+        });
+        format!("{ended}, {grid}{look}")
+    }
 }
 
 impl Tally {
@@ -76,7 +112,7 @@ impl Tally {
             step_alone_stuck: count(&|o| o.step_alone_stuck),
             planning_s: [planning.len() / 2, planning.len().saturating_sub(1)]
                 .map(|i| planning.get(i).copied().unwrap_or(0.0)),
-            failing: outcomes.iter().filter(failing).map(|o| o.scene).collect(),
+            failing: outcomes.iter().filter(failing).map(Failure::of).collect(),
         }
     }
 
@@ -100,10 +136,8 @@ impl Tally {
             let [median, longest] = self.planning_s;
             format!("{median:.2} s, {longest:.2} s")
         });
-        if !self.failing.is_empty() {
-            let first: Vec<String> = self.failing.iter().take(20).map(u64::to_string).collect();
-            let more = if self.failing.len() > 20 { " …" } else { "" };
-            table += &line("failing scenes (draw one with --scene)", first.join(" ") + more);
+        for failure in &self.failing {
+            table += &line(&format!("--scene {}", failure.scene), failure.to_line());
         }
         table
     }
