@@ -1,9 +1,9 @@
 //! Between motion and valve: the fence. Speeds that would carry any part of the linkage past a limit are reduced, none is added.
 //!
 //! What was commanded within the dead time, and what the spools' lag still gives, is to come whatever is decided now:
-//! [`to_come`] knows it from the valves' own model. The limits are weighed where that will have carried the machine
+//! `to_come` knows it from the valves' own model. The limits are weighed where that will have carried the machine
 //! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted. One limit is
-//! weighed a tick ([`sweep`]); what is near is followed every tick.
+//! weighed a tick (`sweep`); what is near is followed every tick.
 
 mod parameters;
 mod sweep;

@@ -1,7 +1,7 @@
 //! The application on the reference ECU, an STM32F405RG. Never flashed to a board yet: it builds, and that is all that is shown.
 //!
-//! [`app`] is the RTIC application, [`flash`] the parameter sectors, [`pins`] the start-up of clocks, pins and buses, [`spi_dma`] the converters' bus, [`watchdog`] the
-//! independent watchdog, [`safe_state`] what happens when everything else has failed, [`log`] what a debug probe reads.
+//! `app` is the RTIC application, `flash` the parameter sectors, `pins` the start-up of clocks, pins and buses, `spi_dma` the converters' bus, `watchdog` the
+//! independent watchdog, `safe_state` what happens when everything else has failed, `log` what a debug probe reads.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
