@@ -134,3 +134,31 @@ fn a_machine_file_is_found_from_the_scenarios_folder() {
     let output = hil_run(&file, &["--draw-only"], &folder.path().join("report"));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
 }
+
+#[test]
+fn the_pages_figures_of_runs_are_those_of_today() {
+    let folder = tempfile::tempdir().unwrap();
+    for (scenario, drawn, kept) in
+        [("fence-zx200.toml", "fence.svg", "fence.svg"), ("obstacle-over.toml", "avoidance.svg", "obstacle-over.svg")]
+    {
+        let output = hil_run(&scenarios().join(scenario), &[], folder.path());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let today = std::fs::read_to_string(folder.path().join(drawn)).unwrap();
+        let kept = std::fs::read_to_string(scenarios().join("../docs").join(kept)).unwrap();
+        assert!(
+            today == kept,
+            "docs/ has another figure than `cargo hil run scenarios/{scenario}` draws: copy {drawn}"
+        );
+    }
+}
+
+#[test]
+fn a_fence_that_is_passed_exits_with_three_and_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    // A ceiling that the boom stands above from the start.
+    let file = changed(folder.path(), "fence-zx200.toml", "ceiling_m = 7.0", "ceiling_m = 4.0");
+    let output = hil_run(&file, &["--json", "-"], &folder.path().join("report"));
+    assert_eq!(output.status.code(), Some(3), "{output:?}");
+    assert!(json(&output)["fence_clearance_min_m"].as_f64().unwrap() < 0.0);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("FENCE VIOLATED"));
+}

@@ -63,6 +63,17 @@ fn columns() -> Vec<(String, Value)> {
     add("pose_valid", Box::new(|row, _| Cell::Whole(row.outputs.pose_valid.into())));
     add("tip_x_estimate_m", Box::new(|row, _| Cell::Single(row.outputs.pose.plane.reach)));
     add("tip_z_estimate_m", Box::new(|row, _| Cell::Single(row.outputs.pose.plane.height)));
+    for (i, name) in ["swing_asked", "boom_asked_mps", "arm_asked_mps", "bucket_asked_mps"].into_iter().enumerate() {
+        add(name, Box::new(move |row, _| Cell::Single(row.outputs.asked.to_array()[i])));
+    }
+    add(
+        "fence_clearance_estimate_m",
+        Box::new(|row, _| match row.outputs.clearance_m {
+            // Nothing to be clear of.
+            f32::MAX => Cell::Empty,
+            clearance => Cell::Single(clearance),
+        }),
+    );
     // A swing motor's is in rad/s.
     for (i, name) in ["swing_speed", "boom_speed_mps", "arm_speed_mps", "bucket_speed_mps"].into_iter().enumerate() {
         add(name, Box::new(move |row, _| Cell::Single(row.outputs.speeds.to_array()[i])));

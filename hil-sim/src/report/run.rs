@@ -9,9 +9,10 @@ use kinematics_core::Machine;
 
 use super::csv::{lengths, write_log};
 use super::figures::linkage::Motion;
-use super::figures::{self, Figure, avoidance, linkage, svg, timing, tracking, valves};
+use super::figures::{self, Figure, avoidance, fence, linkage, svg, timing, tracking, valves};
 use super::html::Page;
 use super::series::{Point, over_time};
+use crate::fence::Watch;
 use crate::run::{Log, ReachSeen, Summary};
 use crate::scenario::Scenario;
 
@@ -53,6 +54,10 @@ fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static st
             target: seen.target,
         };
         all.push((Some("avoidance.svg"), avoidance::figure(&drawn)));
+    }
+    if let (Some(watch), Some(fence)) = (Watch::of(scenario), &scenario.parameters.fence) {
+        all.push((Some("fence.svg"), fence::figure(&watch, fence, log, until_s)));
+        all.push((None, fence::speeds(log, until_s)));
     }
     all.extend([
         (Some("linkage.svg"), linkage_figure(scenario, &machine, log)),

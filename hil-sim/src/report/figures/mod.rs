@@ -3,6 +3,7 @@
 pub(super) mod avoidance;
 mod draw;
 pub(super) mod events;
+pub(super) mod fence;
 pub(super) mod lengths;
 pub(super) mod linkage;
 pub(super) mod timing;
