@@ -74,7 +74,7 @@ fn a_record_is_made_shown_approved_and_compared() {
 #[test]
 fn the_file_holds_what_the_controller_loads() {
     let folder = Folder::new();
-    folder.make("exact-mini", "a.bin", &[]);
+    folder.make("scenarios/dig-exact-mini.toml", "a.bin", &[]);
     params(&["approve", &folder.path("a.bin")]);
     let decoded = firmware::store::copy::decode(&fs::read(folder.path("a.bin")).unwrap()).unwrap();
     assert!(decoded.approved);

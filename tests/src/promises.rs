@@ -164,7 +164,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// All Rust files of the loop: kinematics-core/src, and firmware/src but for its images (`bin`) and their `emulated` board.
+/// All Rust files of the loop: kinematics-core/src, and firmware/src but for its images (`bin`) and what they share (`emulated`, `target`).
 ///
 /// # Panics
 /// When a folder cannot be read.
@@ -182,7 +182,7 @@ fn collect(folder: &str, files: &mut Vec<(String, String)>) {
         let entry = entry.unwrap_or_else(|e| panic!("{folder}: {e}"));
         let path = format!("{folder}/{}", entry.file_name().to_string_lossy());
         if entry.path().is_dir() {
-            if !["firmware/src/bin", "firmware/src/emulated"].contains(&path.as_str()) {
+            if !["firmware/src/bin", "firmware/src/emulated", "firmware/src/target"].contains(&path.as_str()) {
                 collect(&path, files);
             }
         } else if path.ends_with(".rs") {

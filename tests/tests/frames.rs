@@ -50,7 +50,7 @@ fn a_byte_that_names_nothing_is_refused_by_field() {
     bytes[11] = 9;
     assert_eq!(Inputs::from_bytes(&bytes).unwrap_err().field, "request");
     let mut bytes = rig.inputs.to_bytes();
-    bytes[12] = 8;
+    bytes[12] = 64;
     assert_eq!(Inputs::from_bytes(&bytes).unwrap_err().field, "switches");
     let outputs = Rig::new().tick().to_bytes();
     for (at, field) in [(4, "state"), (5, "fault"), (6, "flags")] {

@@ -45,6 +45,18 @@ struct Ball {
     radius_m: f64,
 }
 
+impl Ball {
+    fn check(&self) -> Result<(), String> {
+        let far = [-1000.0, 1000.0];
+        within(&[
+            ("x_m", self.x_m, far),
+            ("y_m", self.y_m, far),
+            ("z_m", self.z_m, far),
+            ("radius_m", self.radius_m, [0.0, 100.0]),
+        ])
+    }
+}
+
 /// A fence's defaults for a machine and its valves, without any limit: a margin of 1/200 of the reach, a deceleration of 0.2
 /// reaches/s², and the dead time once more as reserve for a valve slower than its model.
 fn unlimited(machine: &MachineFile, dead_time_s: f64, lag_s: f64) -> FenceParameters {
@@ -77,7 +89,15 @@ impl FenceTable {
             return Err(format!("`fence.ball` stands {} times but must at most {SPHERES} times", self.ball.len()));
         }
         within(&[("plant.dead_time_s", dead_time_s, [0.0, 0.5])]).map_err(|what| format!("with a fence, {what}"))?;
+        let far = [-1000.0, 1000.0];
         let stated = [
+            ("fence.ceiling_m", self.ceiling_m, far),
+            ("fence.floor_m", self.floor_m, far),
+            ("fence.front_m", self.front_m, far),
+            ("fence.left_m", self.left_m, far),
+            ("fence.right_m", self.right_m, far),
+            ("fence.swing_right_deg", self.swing_right_deg, [-179.0, 179.0]),
+            ("fence.swing_left_deg", self.swing_left_deg, [-179.0, 179.0]),
             ("fence.margin_m", self.margin_m, [0.0, 5.0]),
             ("fence.deceleration_mps2", self.deceleration_mps2, [0.01, 20.0]),
             ("fence.reaction_s", self.reaction_s, [0.002, 2.0]),
@@ -86,6 +106,9 @@ impl FenceTable {
         ];
         let stated: Vec<_> = stated.iter().filter_map(|&(field, value, range)| Some((field, value?, range))).collect();
         within(&stated)?;
+        for (i, ball) in self.ball.iter().enumerate() {
+            ball.check().map_err(|what| format!("`fence.ball[{i}]`: {what}"))?;
+        }
         let mut fence = unlimited(machine, dead_time_s, lag_s);
         let planes = [
             (self.ceiling_m, [0.0, 0.0, 1.0]),

@@ -70,6 +70,9 @@
 //! assert!(reaches != Reaches::none());
 //! fence.weigh(0, (&placed.strips, &reaches), 0..13, &scene, &mut nearby);
 //! assert_eq!(nearby.closest, closest);
+//! // The next sweep begins with nothing near.
+//! nearby.clear();
+//! assert_eq!(nearby, Nearby::none());
 //! # Ok(())
 //! # }
 //! ```

@@ -56,6 +56,11 @@ pub struct Nearby<T> {
 
 impl<T: Real> Nearby<T> {
     /// Nothing yet.
+    ///
+    /// ```
+    /// use kinematics_core::planning::fence::Nearby;
+    /// assert_eq!(Nearby::<f32>::none().closest, f32::MAX);
+    /// ```
     pub fn none() -> Self {
         let unused = Approach::new([T::ZERO; 4], T::ZERO);
         let closest = T::from_f64(f64::from(f32::MAX));
