@@ -260,6 +260,11 @@ impl<T: Real> Placed<T> {
     /// with the other, turn and turn about.
     #[inline(never)]
     pub fn near(&self, sphere: &Sphere<T>) -> [Near<T>; SEGMENTS] {
+        self.near_inlined(sphere)
+    }
+
+    #[inline(always)]
+    pub(super) fn near_inlined(&self, sphere: &Sphere<T>) -> [Near<T>; SEGMENTS] {
         let swing = self.swing;
         // The centre seen from the boom pin, in the frame that turns with the swing.
         let centre = Vec2::new(sphere.x * swing.cos + sphere.y * swing.sin - self.a1, sphere.z);
