@@ -72,7 +72,7 @@
 //! assert_eq!(nearby.closest, closest);
 //! // The next sweep begins with nothing near.
 //! nearby.clear();
-//! assert_eq!(nearby, Nearby::none());
+//! assert_eq!(nearby.closest, Nearby::none().closest);
 //! # Ok(())
 //! # }
 //! ```
