@@ -138,9 +138,11 @@ fn a_machine_file_is_found_from_the_scenarios_folder() {
 #[test]
 fn the_pages_figures_of_runs_are_those_of_today() {
     let folder = tempfile::tempdir().unwrap();
-    for (scenario, drawn, kept) in
-        [("fence-zx200.toml", "fence.svg", "fence.svg"), ("obstacle-over.toml", "avoidance.svg", "obstacle-over.svg")]
-    {
+    for (scenario, drawn, kept) in [
+        ("dig.toml", "linkage.svg", "dig.svg"),
+        ("fence-zx200.toml", "fence.svg", "fence.svg"),
+        ("obstacle-over.toml", "avoidance.svg", "obstacle-over.svg"),
+    ] {
         let output = hil_run(&scenarios().join(scenario), &[], folder.path());
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         let today = std::fs::read_to_string(folder.path().join(drawn)).unwrap();
