@@ -13,11 +13,14 @@ mod progress;
 pub mod run;
 pub mod scenes;
 
+use std::error::Error;
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde::Serialize;
 
 /// Desktop harness of the excavator controller.
 #[derive(Debug, Parser)]
@@ -57,6 +60,19 @@ fn print(text: &str) -> std::io::Result<()> {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         written => written,
     }
+}
+
+/// A command's table and, where asked for, its result as JSON: in a file, or with `-` on standard output, where then nothing else stands.
+fn print_with_json(table: &str, result: &impl Serialize, json: Option<&Path>) -> Result<(), Box<dyn Error>> {
+    let Some(file) = json else { return Ok(print(table)?) };
+    let text = serde_json::to_string_pretty(result)? + "\n";
+    if file == Path::new("-") {
+        eprint!("{table}");
+        return Ok(print(&text)?);
+    }
+    print(table)?;
+    std::fs::write(file, text).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    Ok(())
 }
 
 /// Runs the command line of this process.

@@ -4,14 +4,14 @@ mod emulated;
 mod host;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
 use serde::Serialize;
 
-use super::print;
+use super::print_with_json;
 
 /// Arguments of `hil bench`.
 #[derive(Debug, Args)]
@@ -68,18 +68,7 @@ fn bench(args: &BenchArgs) -> Result<(), AnyError> {
     let ratios = ratios(&emulator, host.as_ref());
     let table = table(&rows, host.as_ref(), &ratios);
     let counts = Counts { emulator, emulator_median: by_name(|row| row.median), host, ratios };
-    let json = serde_json::to_string_pretty(&counts)? + "\n";
-    match args.json.as_deref() {
-        Some(file) if file == Path::new("-") => {
-            eprint!("{table}");
-            print(&json)?;
-        }
-        Some(file) => {
-            print(&table)?;
-            std::fs::write(file, json).map_err(|e| format!("cannot write {}: {e}", file.display()))?;
-        }
-        None => print!("{table}"),
-    }
+    print_with_json(&table, &counts, args.json.as_deref())?;
     Ok(())
 }
 

@@ -1,11 +1,11 @@
 //! `hil coil`: the coil current loop on simulated solenoids, as a table, JSON and a page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::print;
+use super::print_with_json;
 use crate::coil_trial::CoilReport;
 use crate::report::write_coil;
 
@@ -34,23 +34,8 @@ pub fn main(args: &CoilArgs) -> ExitCode {
 
 fn coil(args: &CoilArgs) -> Result<bool, Box<dyn std::error::Error>> {
     let report = CoilReport::new()?;
-    let unwritable = |path: &Path| {
-        let path = path.display().to_string();
-        move |error: std::io::Error| format!("cannot write {path}: {error}")
-    };
-    write_coil(&report, &args.report).map_err(unwritable(&args.report))?;
+    write_coil(&report, &args.report).map_err(|error| format!("cannot write {}: {error}", args.report.display()))?;
     let table = report.to_table() + &format!("page: {}\n", args.report.join("coil.html").display());
-    let json = serde_json::to_string_pretty(&report)? + "\n";
-    match args.json.as_deref() {
-        Some(file) if file == Path::new("-") => {
-            eprint!("{table}");
-            print(&json)?;
-        }
-        Some(file) => {
-            print(&table)?;
-            std::fs::write(file, json).map_err(unwritable(file))?;
-        }
-        None => print(&table)?,
-    }
+    print_with_json(&table, &report, args.json.as_deref())?;
     Ok(report.faults.iter().all(|row| row.right))
 }

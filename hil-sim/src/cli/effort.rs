@@ -1,12 +1,12 @@
 //! `hil effort`: least effort against minimum norm.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use kinematics_core::planning::effort::Piston;
 
-use super::print;
+use super::print_with_json;
 use super::progress::Progress;
 use crate::effort::{Hydraulics, moves, rows, table};
 use crate::machine_file::MachineFile;
@@ -94,17 +94,6 @@ fn run(args: &EffortArgs) -> Result<(), AnyError> {
     }
     progress.finish();
     let table = table(&all);
-    let json = serde_json::to_string_pretty(&all)? + "\n";
-    match args.json.as_deref() {
-        Some(file) if file == Path::new("-") => {
-            eprint!("{table}");
-            print(&json)?;
-        }
-        Some(file) => {
-            print(&table)?;
-            std::fs::write(file, json).map_err(|e| format!("cannot write {}: {e}", file.display()))?;
-        }
-        None => print(&table)?,
-    }
+    print_with_json(&table, &all, args.json.as_deref())?;
     Ok(())
 }

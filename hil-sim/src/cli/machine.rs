@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::print;
+use super::print_with_json;
 use super::progress::Progress;
 use crate::machine_file::MachineFile;
 use crate::machine_report::MachineReport;
@@ -63,22 +63,7 @@ fn write(args: &MachineArgs, file: &MachineFile, report: &MachineReport) -> Resu
     // A machine's name may be anything; the folder is named by plain letters of it.
     let plain: String = report.machine.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let folder = args.report.clone().unwrap_or_else(|| Path::new("report").join(format!("machine-{plain}")));
-    let unwritable = |path: &Path| {
-        let path = path.display().to_string();
-        move |error: std::io::Error| format!("cannot write {path}: {error}")
-    };
-    write_machine(file, report, &folder).map_err(unwritable(&folder))?;
+    write_machine(file, report, &folder).map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
     let table = report.to_table() + &format!("  {:<26} {}\n", "page", folder.join("machine.html").display());
-    match args.json.as_deref() {
-        Some(json) if json == Path::new("-") => {
-            eprint!("{table}");
-            print(&(serde_json::to_string_pretty(report)? + "\n")).map_err(unwritable(json))?;
-        }
-        Some(json) => {
-            print(&table)?;
-            std::fs::write(json, serde_json::to_string_pretty(report)? + "\n").map_err(unwritable(json))?;
-        }
-        None => print(&table)?,
-    }
-    Ok(())
+    print_with_json(&table, report, args.json.as_deref())
 }

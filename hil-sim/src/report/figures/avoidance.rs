@@ -5,7 +5,7 @@ use kinematics_core::planning::hull::Sphere;
 use kinematics_core::planning::reach::Target;
 use kinematics_core::{Joints, Vec2};
 
-use super::{Axis, Beside, Figure, Height, Key, Look, Mark, Panel, colours};
+use super::{Axis, Beside, Figure, Height, Key, Look, Mark, Panel, circle, colours};
 use crate::report::series::{Point, along_path, over_time};
 use crate::scenes::Sample;
 
@@ -35,15 +35,6 @@ fn pins(chain: &Chain<f64>, sample: &Sample) -> [Point; 4] {
     let elbow: Vec2<f64> = boom.to_vec().scale(a2);
     let (wrist, tip) = (chain.wrist(&joints), chain.tip(&joints));
     [(a1, 0.0), (a1 + elbow.x, elbow.z), (wrist.x, wrist.z), (tip.reach, tip.height)]
-}
-
-fn circle((x, y): Point, radius: f64) -> Vec<Point> {
-    (0..=60)
-        .map(|i| {
-            let angle = f64::from(i) * std::f64::consts::TAU / 60.0;
-            (x + radius * libm::cos(angle), y + radius * libm::sin(angle))
-        })
-        .collect()
 }
 
 /// The figure.

@@ -6,7 +6,7 @@ use kinematics_core::Rotor;
 
 use super::events::{RUNNING_KEY, moments, moments_key, running};
 use super::lengths::capital;
-use super::{Axis, Beside, Figure, Height, Key, Look, Mark, Panel, colours, values};
+use super::{Axis, Beside, Figure, Height, Key, Look, Mark, Panel, circle, colours, values};
 use crate::fence::Watch;
 use crate::report::series::{Piece, Point, over_time};
 use crate::run::{Log, Row};
@@ -61,15 +61,6 @@ pub(in crate::report) fn figure(watch: &Watch, fence: &FenceParameters, log: &Lo
 fn teeth(row: &Row, height: f64) -> Option<(Point, Rotor<f64>)> {
     let [reach, z] = row.tip?;
     Some(((reach, z + height), row.swing?))
-}
-
-fn circle((x, y): Point, radius: f64) -> Piece {
-    (0..=60)
-        .map(|i| {
-            let angle = f64::from(i) * std::f64::consts::TAU / 60.0;
-            (x + radius * libm::cos(angle), y + radius * libm::sin(angle))
-        })
-        .collect()
 }
 
 /// Marks of the outline: all but the last thin, the last bold, then the teeth.

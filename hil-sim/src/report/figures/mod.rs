@@ -154,6 +154,16 @@ impl Beside {
     pub(super) const RIGHT: Self = Self(HPos::Left, VPos::Center);
 }
 
+/// A circle as a closed line.
+fn circle((x, y): Point, radius: f64) -> Piece {
+    (0..=60)
+        .map(|i| {
+            let angle = f64::from(i) * std::f64::consts::TAU / 60.0;
+            (x + radius * libm::cos(angle), y + radius * libm::sin(angle))
+        })
+        .collect()
+}
+
 /// Every y of these lines.
 pub(super) fn values(lines: &[Piece]) -> impl Iterator<Item = f64> {
     lines.iter().flatten().map(|point| point.1)
