@@ -1,11 +1,13 @@
-//! The limits weighed in turn: a tick to place the linkage, one to tell how far it can come, then
-//! a part of its strips against a limit a tick. Meanwhile what the sweep before has kept near is followed
+//! The limits weighed in turn: a tick for the joints, one to place the linkage, a tick for each part of its strips to tell how far they
+//! can come, then a part of them against a limit a tick. Meanwhile what the sweep before has kept near is followed
 //! to first order; a wish larger than the one it was weighed with waits for the next.
+
+use core::ops::Range;
 
 use kinematics_core::planning::fence::{Fence, LIMITS, Nearby, Reaches, Scene};
 use kinematics_core::planning::outline::{Outline, PlacedOutline, STRIPS, Strip};
 use kinematics_core::world::BasePlacement;
-use kinematics_core::{Cylinders, Machine, Rotor};
+use kinematics_core::{Cylinders, Joints, Machine, Rotor};
 
 use super::parameters::{FenceParameters, Guards};
 use crate::TICK_S;
@@ -24,16 +26,18 @@ pub(super) struct Ahead {
 /// A tick's share of a sweep.
 #[derive(Clone, Copy, Debug)]
 enum Next {
-    /// Place the linkage.
-    Place,
-    /// Tell how far its strips can come.
-    Reach,
+    /// The joints and their transmissions.
+    Bend,
+    /// Place the linkage at these joints.
+    Place(Joints<f32>),
+    /// Tell how far this part of its strips can come.
+    Reach(usize),
     /// Weigh this part of the strips against the first limit from this number on.
     Weigh(usize, usize),
 }
 
-/// Strips that are weighed in a tick, and in how many ticks all are.
-const PART: usize = 5;
+/// Strips that are weighed in a tick, and in how many ticks all are: parts of at most six ends to weigh against a half-space.
+const PART: usize = 4;
 const PARTS: usize = STRIPS.div_ceil(PART);
 
 /// What is near, by the last complete sweep, and the sweep under way.
@@ -46,7 +50,7 @@ pub(super) struct Sweep {
     near_ahead: Ahead,
     near_wish: [f32; 4],
     next: Next,
-    placed: Option<PlacedOutline<f32>>,
+    placed: PlacedOutline<f32>,
     reaches: Reaches<f32>,
     scene: Scene<f32>,
     found: Nearby<f32>,
@@ -61,8 +65,9 @@ impl Sweep {
     ) -> Result<Self, ParameterError> {
         let fence = p.fence();
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
-        // A tick places, one tells the reaches, one weighs the swing's range and hands over; what a sweep found serves until the next has ended.
-        let age_s = 2.0 * ((limits * PARTS) as f32 + 3.0) * TICK_S;
+        // A tick bends, one places, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
+        // the next has ended.
+        let age_s = 2.0 * ((limits * PARTS + PARTS) as f32 + 3.0) * TICK_S;
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -79,8 +84,8 @@ impl Sweep {
             near: Nearby::none(),
             near_ahead: ahead,
             near_wish: zero,
-            next: Next::Place,
-            placed: None,
+            next: Next::Bend,
+            placed: PlacedOutline::nowhere(),
             reaches: Reaches::none(),
             scene: Scene { swing: Rotor::IDENTITY, base, transmissions: zero, wish: zero, spare },
             found: Nearby::none(),
@@ -91,47 +96,54 @@ impl Sweep {
     pub(super) fn reset(&mut self) {
         self.near.clear();
         self.near_wish = [0.0; 4];
-        self.next = Next::Place;
+        self.next = Next::Bend;
     }
 
     /// One tick's share of the work; `None` where the linkage ahead does not close.
     pub(super) fn step(&mut self, machine: &Machine<f32>, ahead: &Ahead, wanted: [f32; 4]) -> Option<()> {
         match self.next {
-            Next::Place => return self.place(machine, ahead, wanted),
-            Next::Reach => {
-                let mut tip = None;
-                self.reaches = self.fence.reaches(guarded(&self.placed, self.guards, &mut tip), &self.scene);
-                self.next = Next::Weigh(0, 0);
+            Next::Bend => return self.bend(machine, ahead, wanted),
+            Next::Place(joints) => {
+                self.outline.place_into(machine, &joints, &mut self.placed).ok()?;
+                self.next = Next::Reach(0);
             }
+            Next::Reach(part) => self.reach(part),
             Next::Weigh(number, part) => self.weigh_from(number, part),
         }
         Some(())
     }
 
-    fn place(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
+    fn bend(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
         let lengths = &ahead.lengths;
-        self.placed = Some(self.outline.place(machine, &machine.cylinders_to_joints(lengths).ok()?).ok()?);
+        let joints = machine.cylinders_to_joints(lengths).ok()?;
         let [boom, arm, bucket] = machine.moment_arms(lengths).ok()?.transmissions().ok()?;
-        let transmissions = [ahead.per_swing, boom, arm, bucket];
-        self.scene = Scene { swing: ahead.swing, transmissions, wish, ..self.scene };
+        self.scene.swing = ahead.swing;
+        self.scene.transmissions = [ahead.per_swing, boom, arm, bucket];
+        self.scene.wish = wish;
         self.ahead = *ahead;
         self.found.clear();
-        self.next = Next::Reach;
+        self.next = Next::Place(joints);
         Some(())
+    }
+
+    fn reach(&mut self, part: usize) {
+        let mut tip = None;
+        let strips = guarded(&self.placed, self.guards, &mut tip);
+        self.fence.reaches_of(strips, part_of(part), &self.scene, &mut self.reaches);
+        self.next = if part + 1 < PARTS { Next::Reach(part + 1) } else { Next::Weigh(0, 0) };
     }
 
     /// Weighs a part of the strips against the first limit from this number on; after the last, what was found is what is near.
     fn weigh_from(&mut self, number: usize, part: usize) {
         let mut tip = None;
         let strips = (guarded(&self.placed, self.guards, &mut tip), &self.reaches);
-        let from = part * PART;
         let mut weighed = number;
-        while weighed < LIMITS && !self.fence.weigh(weighed, strips, from..from + PART, &self.scene, &mut self.found) {
+        while weighed < LIMITS && !self.fence.weigh(weighed, strips, part_of(part), &self.scene, &mut self.found) {
             weighed += 1;
         }
         self.next = if weighed + 1 >= LIMITS {
             (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
-            Next::Place
+            Next::Bend
         } else if part + 1 < PARTS {
             Next::Weigh(weighed, part + 1)
         } else {
@@ -150,16 +162,16 @@ impl Sweep {
     }
 }
 
+/// The strips of a part, by number.
+fn part_of(part: usize) -> Range<usize> {
+    part * PART..(part + 1) * PART
+}
+
 /// The strips that are guarded; `tip` is room for the teeth's.
-fn guarded<'a>(
-    placed: &'a Option<PlacedOutline<f32>>,
-    guards: Guards,
-    tip: &'a mut Option<Strip<f32>>,
-) -> &'a [Strip<f32>] {
-    match (placed, guards) {
-        (Some(placed), Guards::Linkage) => &placed.strips,
-        (Some(placed), Guards::Tip) => core::slice::from_ref(tip.insert(placed.tip())),
-        (None, _) => &[],
+fn guarded<'a>(placed: &'a PlacedOutline<f32>, guards: Guards, tip: &'a mut Option<Strip<f32>>) -> &'a [Strip<f32>] {
+    match guards {
+        Guards::Linkage => &placed.strips,
+        Guards::Tip => core::slice::from_ref(tip.insert(placed.tip())),
     }
 }
 

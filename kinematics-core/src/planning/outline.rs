@@ -4,7 +4,7 @@
 //! may belong to two bodies (a cylinder's do); every end carries its velocity by each joint's rate.
 //!
 //! ```
-//! use kinematics_core::planning::outline::{Outline, OutlineShape, PARTS, Part};
+//! use kinematics_core::planning::outline::{Outline, OutlineShape, PARTS, Part, PlacedOutline};
 //! use kinematics_core::{Cylinders, Machine, PinGeometry};
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! let geometry = PinGeometry::EXACT_MINI;
@@ -15,6 +15,10 @@
 //! let outline = Outline::<f64>::new(&geometry, &shape)?;
 //! let joints = machine.cylinders_to_joints(&Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 })?;
 //! let placed = outline.place(&machine, &joints)?;
+//! // Or into one that is there.
+//! let mut there = PlacedOutline::nowhere();
+//! outline.place_into(&machine, &joints, &mut there)?;
+//! assert_eq!(there, placed);
 //! // The last strip ends at the teeth.
 //! assert_eq!(PARTS.last(), Some(&Part::Bucket));
 //! let [.., back_to_teeth] = &placed.strips;
@@ -195,6 +199,13 @@ pub struct PlacedOutline<T> {
 }
 
 impl<T: Real> PlacedOutline<T> {
+    /// Every strip a point in the origin: of no machine yet.
+    pub fn nowhere() -> Self {
+        let zero = Vec2::new(T::ZERO, T::ZERO);
+        let end = MovingPoint { at: zero, per_joint: [zero; 3] };
+        Self { strips: [Strip { ends: [end, end], radius: T::ZERO, lateral: T::ZERO }; STRIPS] }
+    }
+
     /// The teeth alone, as one point: what a fence would guard that knows the tip only.
     pub fn tip(&self) -> Strip<T> {
         let [.., last] = &self.strips;
@@ -277,6 +288,21 @@ impl<T: Real> Outline<T> {
     /// # Errors
     /// [`PoseError::NoAssembly`] where the bucket's four-bar does not close.
     pub fn place(&self, machine: &Machine<T>, joints: &Joints<T>) -> Result<PlacedOutline<T>, PoseError<T>> {
+        let mut placed = PlacedOutline::nowhere();
+        self.place_into(machine, joints, &mut placed)?;
+        Ok(placed)
+    }
+
+    /// [`Outline::place`] into an outline that is there: copying one costs as much as placing it. After an error it is as it was.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn place_into(
+        &self,
+        machine: &Machine<T>,
+        joints: &Joints<T>,
+        placed: &mut PlacedOutline<T>,
+    ) -> Result<(), PoseError<T>> {
         let zero = Vec2::new(T::ZERO, T::ZERO);
         let (boom, arm) = (joints.boom, joints.boom * joints.arm);
         let bucket = arm * joints.bucket;
@@ -300,23 +326,35 @@ impl<T: Real> Outline<T> {
             let at = bucket_pin.at + turned;
             MovingPoint { at, per_joint: [left(at - boom_pin), left(at - arm_pin.at), left(turned)] }
         });
-        Ok(PlacedOutline {
-            strips: [
-                self.boom.strip(fixed(boom_pin), knee),
-                self.boom.strip(knee, arm_pin),
-                self.arm.strip(arm_pin, d),
-                self.arm.strip(d, bucket_pin),
-                self.arm.strip(arm_pin, bucket_pin),
-                self.boom_cylinder.strip(fixed(boom_pin + self.boom_base), b),
-                self.cylinder.strip(c, d),
-                self.cylinder.strip(e, j),
-                self.link.strip(i, j),
-                self.link.strip(j, k),
-                self.bucket.strip(bucket_pin, k),
-                self.bucket.strip(k, back),
-                self.bucket.strip(back, teeth),
-            ],
-        })
+        let [
+            lower,
+            upper,
+            behind,
+            before,
+            whole,
+            boom_cylinder,
+            arm_cylinder,
+            bucket_cylinder,
+            rocker,
+            coupler,
+            front,
+            rear,
+            edge,
+        ] = &mut placed.strips;
+        *lower = self.boom.strip(fixed(boom_pin), knee);
+        *upper = self.boom.strip(knee, arm_pin);
+        *behind = self.arm.strip(arm_pin, d);
+        *before = self.arm.strip(d, bucket_pin);
+        *whole = self.arm.strip(arm_pin, bucket_pin);
+        *boom_cylinder = self.boom_cylinder.strip(fixed(boom_pin + self.boom_base), b);
+        *arm_cylinder = self.cylinder.strip(c, d);
+        *bucket_cylinder = self.cylinder.strip(e, j);
+        *rocker = self.link.strip(i, j);
+        *coupler = self.link.strip(j, k);
+        *front = self.bucket.strip(bucket_pin, k);
+        *rear = self.bucket.strip(k, back);
+        *edge = self.bucket.strip(back, teeth);
+        Ok(())
     }
 }
 
