@@ -1,5 +1,5 @@
 //! The limits weighed in turn: a tick for the joints, one to place the linkage, a tick for each part of its strips to tell how far they
-//! can come, then a part of them against a limit a tick. Meanwhile what the sweep before has kept near is followed
+//! can come, then of a limit what a tick has room for: much that is far off or little that is near. Meanwhile what the sweep before has kept near is followed
 //! to first order; a wish larger than the one it was weighed with waits for the next.
 
 use core::ops::Range;
@@ -32,13 +32,18 @@ enum Next {
     Place(Joints<f32>),
     /// Tell how far this part of its strips can come.
     Reach(usize),
-    /// Weigh this part of the strips against the first limit from this number on.
+    /// Weigh the strips from the second number on against the first limit from the first number on.
     Weigh(usize, usize),
 }
 
-/// Strips that are weighed in a tick, and in how many ticks all are: parts of at most six ends to weigh against a half-space.
+/// Strips whose reach is told in a tick, and in how many ticks all are.
 const PART: usize = 4;
 const PARTS: usize = STRIPS.div_ceil(PART);
+/// Work of a tick's weighing: six ends far off, or one or two that are near.
+const WORK: usize = 6;
+/// Ticks a limit takes with little near it. With much it takes longer, and what was found holds for as far as the actuators could
+/// have gone in this time at full speed: not beyond.
+const TICKS_PER_LIMIT: usize = 5;
 
 /// What is near, by the last complete sweep, and the sweep under way.
 #[derive(Clone, Debug)]
@@ -67,7 +72,7 @@ impl Sweep {
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
         // A tick bends, one places, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
         // the next has ended.
-        let age_s = 2.0 * ((limits * PARTS + PARTS) as f32 + 3.0) * TICK_S;
+        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 3.0) * TICK_S;
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -133,31 +138,39 @@ impl Sweep {
         self.next = if part + 1 < PARTS { Next::Reach(part + 1) } else { Next::Weigh(0, 0) };
     }
 
-    /// Weighs a part of the strips against the first limit from this number on; after the last, what was found is what is near.
-    fn weigh_from(&mut self, number: usize, part: usize) {
+    /// Weighs strips from this one on against the first limit from this number on; after the last, what was found is what is near.
+    fn weigh_from(&mut self, mut number: usize, strip: usize) {
         let mut tip = None;
-        let strips = (guarded(&self.placed, self.guards, &mut tip), &self.reaches);
-        let mut weighed = number;
-        while weighed < LIMITS && !self.fence.weigh(weighed, strips, part_of(part), &self.scene, &mut self.found) {
-            weighed += 1;
-        }
-        self.next = if weighed + 1 >= LIMITS {
-            (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
-            Next::Bend
-        } else if part + 1 < PARTS {
-            Next::Weigh(weighed, part + 1)
-        } else {
-            Next::Weigh(weighed + 1, 0)
+        let strips = guarded(&self.placed, self.guards, &mut tip);
+        let count = strips.len();
+        let next = loop {
+            let part = (strip, WORK);
+            match self.fence.weigh(number, (strips, &self.reaches), part, &self.scene, &mut self.found) {
+                None if number < LIMITS => number += 1,
+                next => break next,
+            }
+        };
+        self.next = match next {
+            Some(next) if next < count => Next::Weigh(number, next),
+            Some(_) if number + 1 < LIMITS => Next::Weigh(number + 1, 0),
+            _ => {
+                (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
+                Next::Bend
+            }
         };
     }
 
     /// What is let through, and the smallest clearance of the last sweep.
     pub(super) fn limit(&self, ahead: &Ahead, wanted: [f32; 4], receding: &[f32; 4]) -> ([f32; 4], f32) {
+        let moved = self.near_ahead.until(ahead);
+        let too_far = |(&moved, spare): (&f32, f32)| moved > spare || moved < -spare;
+        if moved.iter().zip(self.scene.spare).any(too_far) {
+            return ([0.0; 4], self.near.closest);
+        }
         let mut weighed = wanted;
         for (wanted, wish) in weighed.iter_mut().zip(self.near_wish) {
             *wanted = if wish > 0.0 { limited(*wanted, 0.0, wish) } else { limited(*wanted, wish, 0.0) };
         }
-        let moved = self.near_ahead.until(ahead);
         (self.fence.limit(&self.near, &weighed, receding, &moved), self.near.closest)
     }
 }

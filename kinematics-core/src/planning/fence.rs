@@ -69,7 +69,9 @@
 //! let mut reaches = Reaches::none();
 //! fence.reaches_of(&placed.strips, 0..13, &scene, &mut reaches);
 //! assert_eq!(reaches, fence.reaches(&placed.strips, &scene));
-//! fence.weigh(0, (&placed.strips, &reaches), 0..13, &scene, &mut nearby);
+//! assert_eq!(fence.weigh(0, (&placed.strips, &reaches), (0, 1), &scene, &mut nearby), Some(1));
+//! assert_eq!(fence.weigh(0, (&placed.strips, &reaches), (1, 1000), &scene, &mut nearby), Some(13));
+//! assert_eq!(fence.weigh(1, (&placed.strips, &reaches), (0, 1000), &scene, &mut nearby), None);
 //! assert_eq!(nearby.closest, closest);
 //! // The next sweep begins with nothing near.
 //! nearby.clear();
@@ -90,6 +92,8 @@ pub use super::nearby::Nearby;
 
 /// How many limits [`Fence::weigh`] takes one by one: half-spaces, then balls, then the swing's range.
 pub const LIMITS: usize = HALF_SPACES + SPHERES + 1;
+/// What an end costs that is near, against one that is far off: it is kept with its derivative.
+pub const NEAR: usize = 5;
 /// Rounds over all approaches before one factor settles what is left.
 const ROUNDS: usize = 2;
 
@@ -218,51 +222,66 @@ impl<T: Real> Fence<T> {
         }
     }
 
-    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near. A number without a limit does
-    /// nothing; false then. `reaches` are those of the same strips and scene; of the strips, those within `part` are weighed.
+    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near, from this strip on until so
+    /// much `work` is done: 1 for an end that is far off, [`NEAR`] for one that is not. `reaches` are those of the same strips and scene.
+    /// The strip to go on from, their number when all are weighed; `None` where this number has no limit.
     pub fn weigh(
         &self,
         number: usize,
         (strips, reaches): (&[Strip<T>], &Reaches<T>),
-        part: Range<usize>,
+        (from, work): (usize, usize),
         scene: &Scene<T>,
         nearby: &mut Nearby<T>,
-    ) -> bool {
-        let mut weighing = Weighing::new(&self.stopping, scene, nearby);
+    ) -> Option<usize> {
         // The teeth alone are one strip.
         let own_ends = if strips.len() < STRIPS { &[[false, true]; STRIPS] } else { &OWN_ENDS };
-        let strips = strips.iter().zip(&reaches.of_strips).zip(own_ends).take(part.end).skip(part.start);
+        let (mut next, mut done) = (from, 0);
         if let Some(Some(space)) = self.limits.half_spaces.get(number) {
+            let mut weighing = Weighing::new(&self.stopping, scene, nearby);
             let seen = space.seen(&scene.base, scene.swing);
-            for ((strip, reach), own) in strips {
+            while done < work
+                && let (Some(strip), Some(reach), Some(own)) =
+                    (strips.get(next), reaches.of_strips.get(next), own_ends.get(next))
+            {
                 let side = strip.side(&seen);
-                for (end, _) in strip.ends.iter().zip(own).filter(|&(_, &own)| own) {
-                    let distance = side.distance(end);
-                    if weighing.matters(distance, reach) {
-                        weighing.keep(distance, &side.approach(end), reach);
+                for (end, &own) in strip.ends.iter().zip(own) {
+                    if own {
+                        let distance = side.distance(end);
+                        done += 1;
+                        if weighing.matters(distance, reach) {
+                            weighing.keep(distance, &side.approach(end), reach);
+                            done += NEAR - 1;
+                        }
                     }
                 }
+                next += 1;
             }
-            return true;
+            return Some(next);
         }
         let ball = number.checked_sub(HALF_SPACES).and_then(|number| self.limits.spheres.get(number));
         if let Some(Some(ball)) = ball {
+            let mut weighing = Weighing::new(&self.stopping, scene, nearby);
             let seen = ball.seen(&scene.base, scene.swing);
-            for ((strip, reach), _) in strips {
+            while done < work
+                && let (Some(strip), Some(reach)) = (strips.get(next), reaches.of_strips.get(next))
+            {
                 let facing = strip.facing(&seen);
+                done += 1;
                 if weighing.matters(facing.distance, reach) {
                     weighing.keep(facing.distance, &facing.approach(strip), reach);
+                    done += NEAR - 1;
                 }
+                next += 1;
             }
-            return true;
+            return Some(next);
         }
         match &self.limits.swing {
             Some(range) if number + 1 == LIMITS => {
                 let [per_swing, ..] = scene.transmissions;
                 nearby.turning = Some((range.distances(scene.swing), per_swing));
-                true
+                Some(strips.len())
             }
-            _ => false,
+            _ => None,
         }
     }
 
@@ -270,7 +289,7 @@ impl<T: Real> Fence<T> {
     pub fn weigh_all(&self, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) {
         let reaches = self.reaches(strips, scene);
         for number in 0..LIMITS {
-            self.weigh(number, (strips, &reaches), 0..STRIPS, scene, nearby);
+            self.weigh(number, (strips, &reaches), (0, usize::MAX), scene, nearby);
         }
     }
 

@@ -3,7 +3,7 @@
 //! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about half an [`Avoid::step`]'s cost.
 //! 1. *Poses*: [`PITCHES`] bucket pitches at the target, before the swing axis and behind it, each by the closed-form inverse; kept are the nearest clear one and
 //!    the clearest. None clear is [`Progress::Blocked`].
-//! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing; kept is the nearest clear one of each arm angle.
+//! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing, one a tick; kept is the nearest clear one of each arm angle.
 //! 3. *Routes*: all of `route.rs`, by their time at the speed limits, the direct one first.
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
@@ -82,12 +82,30 @@ struct Along<T> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase<T, const N: usize> {
-    Poses { pitch: usize, of: usize },
-    Postures { index: usize, best: [Option<Pose<T>>; POSTURES] },
-    Rank { number: usize },
-    Rehearse { along: Along<T>, joints: [Rotor<T>; 4], steps: u32 },
-    Follow { along: Along<T> },
-    End { progress: Progress },
+    Poses {
+        pitch: usize,
+        of: usize,
+    },
+    /// Obstacles before `tried` leave posture `index` clear.
+    Postures {
+        index: usize,
+        tried: usize,
+        best: [Option<Pose<T>>; POSTURES],
+    },
+    Rank {
+        number: usize,
+    },
+    Rehearse {
+        along: Along<T>,
+        joints: [Rotor<T>; 4],
+        steps: u32,
+    },
+    Follow {
+        along: Along<T>,
+    },
+    End {
+        progress: Progress,
+    },
 }
 
 /// One target, its obstacles, and how far the way to it has come.
@@ -268,7 +286,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         if pitch + 1 < 2 * of {
             self.phase = Phase::Poses { pitch: pitch + 1, of };
         } else if self.nearest.is_some() {
-            self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
+            self.phase = Phase::Postures { index: 0, tried: 0, best: [None; POSTURES] };
         } else if of == PITCHES {
             self.phase = Phase::Poses { pitch: 0, of: FINER * PITCHES };
         } else {
@@ -284,7 +302,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
 
     fn try_posture(&mut self) {
         let Some(goal) = self.goal() else { return self.end(Progress::Blocked) };
-        let Phase::Postures { index: at, best } = &mut self.phase else { return };
+        let Phase::Postures { index: at, tried, best } = &mut self.phase else { return };
         let index = *at;
         let start = self.avoid.aim(&self.start);
         let share = |n: usize, spacing: f64| T::from_i32(n as i32) * T::from_f64(spacing) - T::from_f64(0.95);
@@ -295,17 +313,21 @@ impl<T: Real, const N: usize> Reach<T, N> {
             arm.at(share(kind, 1.9 / (POSTURES - 1) as f64)),
             bucket.at(share(rest / 5, 1.9 / 2.0)),
         ];
-        let keep = self.avoid.stop;
-        let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, self.avoid.hull.thickest_m(), keep));
         let [b, a, k] = planar;
-        // At its own bearing a sphere is nearest: clear there is clear at every swing.
-        let avoid = &self.avoid;
-        let clear =
-            self.obstacles.iter().zip(&bearings).all(|(obstacle, bearing)| {
-                is_clear(avoid, avoid.clearance(&[bearing.direction, b, a, k], &[*obstacle]))
-            });
-        let posture = self.avoid.aim(&[start.swing, b, a, k]);
+        let (thickest, keep) = (self.avoid.hull.thickest_m(), self.avoid.stop);
+        let mut clear = true;
+        if let Some(obstacle) = self.obstacles.get(*tried) {
+            // At its own bearing a sphere is nearest: clear there is clear at every swing.
+            let bearing = Bearing::of(obstacle, thickest, keep);
+            clear = is_clear(&self.avoid, self.avoid.clearance(&[bearing.direction, b, a, k], &[*obstacle]));
+            if clear && *tried + 1 < N {
+                *tried += 1;
+                return;
+            }
+        }
+        *tried = 0;
         if clear {
+            let posture = self.avoid.aim(&[start.swing, b, a, k]);
             let over = Aim { swing: goal.swing, places: posture.places };
             let time =
                 self.avoid.time(&self.avoid.lack(&start, &posture)) + self.avoid.time(&self.avoid.lack(&over, &goal));
@@ -317,6 +339,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             *at = index + 1;
         } else {
             let postures = best.map(|best| best.map(|pose| pose.aim.places));
+            let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, thickest, keep));
             self.map = Some(Map { start, goal, bearings, postures });
             self.phase = Phase::Rank { number: 0 };
         }
@@ -360,7 +383,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             self.end(Progress::NoRoute);
         } else {
             self.second_pose = true;
-            self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
+            self.phase = Phase::Postures { index: 0, tried: 0, best: [None; POSTURES] };
         }
     }
 
