@@ -1,4 +1,4 @@
-//! The limits weighed in turn: a tick for the joints, one to place the linkage, a tick for each part of its strips to tell how far they
+//! The limits weighed in turn: a tick for the joints, two to place the linkage, a tick for each part of its strips to tell how far they
 //! can come, then of a limit what a tick has room for: much that is far off or little that is near. Meanwhile what the sweep before has kept near is followed
 //! to first order; a wish larger than the one it was weighed with waits for the next.
 
@@ -28,8 +28,10 @@ pub(super) struct Ahead {
 enum Next {
     /// The joints and their transmissions.
     Bend,
-    /// Place the linkage at these joints.
-    Place(Joints<f32>),
+    /// Place boom and arm at these joints.
+    Beams(Joints<f32>),
+    /// Place the bucket and its linkage.
+    Bucket(Joints<f32>),
     /// Tell how far this part of its strips can come.
     Reach(usize),
     /// Weigh the strips from the second number on against the first limit from the first number on.
@@ -70,9 +72,9 @@ impl Sweep {
     ) -> Result<Self, ParameterError> {
         let fence = p.fence();
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
-        // A tick bends, one places, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
+        // A tick bends, two place, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
         // the next has ended.
-        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 3.0) * TICK_S;
+        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 4.0) * TICK_S;
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -108,8 +110,12 @@ impl Sweep {
     pub(super) fn step(&mut self, machine: &Machine<f32>, ahead: &Ahead, wanted: [f32; 4]) -> Option<()> {
         match self.next {
             Next::Bend => return self.bend(machine, ahead, wanted),
-            Next::Place(joints) => {
-                self.outline.place_into(machine, &joints, &mut self.placed).ok()?;
+            Next::Beams(joints) => {
+                self.outline.place_beams(&joints, &mut self.placed);
+                self.next = Next::Bucket(joints);
+            }
+            Next::Bucket(joints) => {
+                self.outline.place_bucket(machine, &joints, &mut self.placed).ok()?;
                 self.next = Next::Reach(0);
             }
             Next::Reach(part) => self.reach(part),
@@ -127,7 +133,7 @@ impl Sweep {
         self.scene.wish = wish;
         self.ahead = *ahead;
         self.found.clear();
-        self.next = Next::Place(joints);
+        self.next = Next::Beams(joints);
         Some(())
     }
 
