@@ -41,8 +41,8 @@ enum Next {
 /// Strips whose reach is told in a tick, and in how many ticks all are.
 const PART: usize = 4;
 const PARTS: usize = STRIPS.div_ceil(PART);
-/// Work of a tick's weighing: six ends far off, or one or two that are near.
-const WORK: usize = 6;
+/// Work of a tick's weighing: ten ends far off, or two that are near.
+const WORK: usize = 10;
 /// Ticks a limit takes with little near it. With much it takes longer, and what was found holds for as far as the actuators could
 /// have gone in this time at full speed: not beyond.
 const TICKS_PER_LIMIT: usize = 5;
