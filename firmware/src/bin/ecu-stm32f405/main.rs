@@ -22,6 +22,14 @@ mod target;
 #[cfg(target_os = "none")]
 mod watchdog;
 
+/// After the outputs were dropped: nothing. The watchdog resets the chip.
+#[cfg(target_os = "none")]
+fn rest() -> ! {
+    loop {
+        core::sync::atomic::compiler_fence(core::sync::atomic::Ordering::SeqCst);
+    }
+}
+
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!("ecu-stm32f405 is an image for a board: see docs/porting.md");
