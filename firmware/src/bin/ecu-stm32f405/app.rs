@@ -5,6 +5,7 @@ mod app {
     use crate::flash::ParameterFlash;
     use crate::pins::{self, Chips, Ecu405, StartError};
     use crate::{log, safe_state, target};
+    use cortex_m::singleton;
     use firmware::board::Controller;
     use firmware::can::address::{Addresses, Name};
     use firmware::store::Store;
@@ -25,7 +26,7 @@ mod app {
     #[local]
     struct Local {
         board: Ecu405,
-        controller: Controller<&'static mut Followers>,
+        controller: &'static mut Controller<&'static mut Followers>,
         timer: CounterHz<TIM2>,
     }
 
@@ -54,17 +55,23 @@ mod app {
         (Shared {}, Local { board, controller, timer })
     }
 
-    /// The controller of the stored parameters; without them nothing ever moves.
-    fn controller(flash: ParameterFlash, followers: &'static mut Followers) -> Controller<&'static mut Followers> {
+    /// The controller of the stored parameters; without them nothing ever moves. Not inlined: what it needs of the stack, the rest of the
+    /// start-up does not need at the same time.
+    #[inline(never)]
+    fn controller(
+        flash: ParameterFlash,
+        followers: &'static mut Followers,
+    ) -> &'static mut Controller<&'static mut Followers> {
         let Ok(mut store) = Store::new(flash) else { safe_state::halt(&|| defmt::error!("no store in these sectors")) };
         let Ok(loaded) = store.load() else { safe_state::halt(&|| defmt::error!("no approved parameters in flash")) };
         let Ok(parameters) = loaded.record.parameters_for(BUCKET) else {
             safe_state::halt(&|| defmt::error!("no such bucket"))
         };
-        match Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers) {
-            Ok(controller) => controller,
-            Err(_) => safe_state::halt(&|| defmt::error!("the parameters are refused")),
-        }
+        let Ok(controller) = Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers) else {
+            safe_state::halt(&|| defmt::error!("the parameters are refused"))
+        };
+        let placed = singleton!(: Controller<&'static mut Followers> = controller);
+        placed.unwrap_or_else(|| safe_state::halt(&|| defmt::error!("started twice")))
     }
 
     #[idle]

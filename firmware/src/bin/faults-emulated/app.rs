@@ -1,14 +1,17 @@
-//! Fails as it is told, and leaves the emulator with a code that says how it was caught.
+//! Fails or writes as it is told, and leaves the emulator with a code that says how it was caught.
 
+use crate::flash::ParameterFlash;
 use crate::link::Link;
 use crate::{safe_state, target};
 use cortex_m::peripheral::{NVIC, SCB};
 use cortex_m_rt::entry;
 use defmt_rtt as _;
+use embedded_storage::nor_flash::NorFlash;
 use stm32f4xx_hal::pac::{Interrupt, Peripherals};
 
-/// Exit codes: what the core was in when the outputs had been dropped.
+/// Exit codes; from ten on, what the core was in when the outputs had been dropped.
 mod code {
+    pub(super) const WRITTEN: u8 = 0;
     pub(super) const NOT_CAUGHT: u8 = 1;
     pub(super) const IN_THREAD: u8 = 10;
     pub(super) const IN_HARD_FAULT: u8 = 11;
@@ -20,7 +23,7 @@ mod code {
 #[entry]
 fn main() -> ! {
     let taken = (cortex_m::Peripherals::take(), Peripherals::take(), Link::open());
-    let (Some(mut core), Some(_), Ok(mut link)) = taken else { end(code::NOT_CAUGHT) };
+    let (Some(mut core), Some(device), Ok(mut link)) = taken else { end(code::NOT_CAUGHT) };
     target::stack_guard::arm(&mut core.MPU);
     let mut way = [0];
     if link.read(&mut way).is_err() {
@@ -34,6 +37,14 @@ fn main() -> ! {
             // SAFETY: nothing here is shared with a handler.
             unsafe { NVIC::unmask(Interrupt::EXTI0) };
             NVIC::pend(Interrupt::EXTI0);
+        }
+        // The emulator has no flash controller: it reads as ready, and notes every access.
+        b"w" => {
+            let mut flash = ParameterFlash::new(device.FLASH);
+            let sector = ParameterFlash::ERASE_SIZE as u32;
+            if flash.erase(sector, 2 * sector).is_ok() && flash.write(sector, &[1, 2, 3, 4]).is_ok() {
+                end(code::WRITTEN);
+            }
         }
         b"x" => safe_state::halt(&|| defmt::error!("halted as told")),
         _ => {}
