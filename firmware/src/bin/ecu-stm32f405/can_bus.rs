@@ -1,8 +1,8 @@
 //! The CAN controller: bxcan receives; sending is ours. bxcan's own refuses a frame while one of higher priority waits, so that most of a
 //! tick's telemetry would be lost, and it holds a panic.
 
-use embedded_can::nb::Can;
 use embedded_can::Id;
+use embedded_can::nb::Can;
 use stm32f4xx_hal::nb;
 use stm32f4xx_hal::pac::CAN1;
 
