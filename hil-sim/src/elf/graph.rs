@@ -101,6 +101,10 @@ impl Graph {
         let mut constants = (0, BTreeMap::new());
         for (at, instruction) in instructions(elf)? {
             let Some(start) = graph.start(at) else { continue };
+            // Between functions stands what the linker fills gaps with.
+            if graph.functions.get(&start).is_some_and(|function| function.size > 0 && at >= start + function.size) {
+                continue;
+            }
             if constants.0 != start {
                 constants = (start, BTreeMap::new());
             }
