@@ -113,5 +113,7 @@ fn owner(name: &str) -> &str {
     let known = ["kinematics_core", "firmware", "ecu_stm32f405", "ecu_emulated", "stm32f4xx_hal", "compiler_builtins"];
     let before = |owner: &&str| name.find(*owner);
     let first = known.into_iter().filter(|owner| before(owner).is_some()).min_by_key(before);
-    first.or_else(|| name.split_once("::").map(|(owner, _)| owner.trim_start_matches('<'))).unwrap_or("(no crate)")
+    first
+        .or_else(|| name.split_once("::").map(|(owner, _)| owner.trim_start_matches('<')))
+        .unwrap_or("(entry, assembly)")
 }
