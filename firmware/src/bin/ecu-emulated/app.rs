@@ -5,7 +5,6 @@ mod app {
     use crate::emulated::link::{Link, LinkLost};
     use crate::emulated::stopwatch::Stopwatch;
     use crate::emulated::{fail, stack, succeed};
-    use crate::target;
     use firmware::board::Controller;
     use firmware::can::address::Addresses;
     use firmware::frame::OUTPUT_BYTES;
@@ -30,8 +29,7 @@ mod app {
     }
 
     #[init(local = [followers: Followers = Followers::new()])]
-    fn init(mut cx: init::Context) -> (Shared, Local) {
-        target::stack_guard::arm(&mut cx.core.MPU);
+    fn init(cx: init::Context) -> (Shared, Local) {
         let stopwatch = Stopwatch::start(cx.device.TIM5);
         let Ok((link, controller)) = connect(cx.local.followers) else { fail() };
         let Ok(board) = SimulatedBoard::new() else { fail() };

@@ -6,9 +6,6 @@ mod app;
 #[cfg(target_os = "none")]
 #[path = "../../emulated/mod.rs"]
 mod emulated;
-#[cfg(target_os = "none")]
-#[path = "../../target/mod.rs"]
-mod target;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
