@@ -50,8 +50,6 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     ///
     /// # Errors
     /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
-    // Not inlined, as little of what it calls is: a caller's stack would hold all of their values at once.
-    #[inline(never)]
     pub fn with(parameters: &Parameters, followers: F) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;

@@ -9,7 +9,7 @@ mod app {
     use firmware::board::Controller;
     use firmware::can::address::{Addresses, Name};
     use firmware::store::Store;
-    use firmware::{Followers, TICKS_PER_S};
+    use firmware::{Followers, Parameters, TICKS_PER_S};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -40,7 +40,7 @@ mod app {
             (cx.device.TIM3, cx.device.TIM4),
             &mut rcc,
         );
-        let controller = controller(ParameterFlash::new(cx.device.FLASH), cx.local.followers);
+        let controller = controller(&parameters(ParameterFlash::new(cx.device.FLASH)), cx.local.followers);
         let chips = Chips { spi: cx.device.SPI1, dma: cx.device.DMA2, can: cx.device.CAN1, watchdog: cx.device.IWDG };
         let board = match pins::start(chips, gpio, outputs, &mut rcc) {
             Ok(board) => board,
@@ -55,19 +55,24 @@ mod app {
         (Shared {}, Local { board, controller, timer })
     }
 
-    /// The controller of the stored parameters; without them nothing ever moves. Not inlined: what it needs of the stack, the rest of the
-    /// start-up does not need at the same time.
+    /// The stored parameters; without them nothing ever moves. Not inlined, nor is [`controller`]: one's values are off the stack before the
+    /// other's come.
     #[inline(never)]
-    fn controller(
-        flash: ParameterFlash,
-        followers: &'static mut Followers,
-    ) -> &'static mut Controller<&'static mut Followers> {
+    fn parameters(flash: ParameterFlash) -> Parameters {
         let Ok(mut store) = Store::new(flash) else { safe_state::halt(&|| defmt::error!("no store in these sectors")) };
         let Ok(loaded) = store.load() else { safe_state::halt(&|| defmt::error!("no approved parameters in flash")) };
         let Ok(parameters) = loaded.record.parameters_for(BUCKET) else {
             safe_state::halt(&|| defmt::error!("no such bucket"))
         };
-        let Ok(controller) = Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers) else {
+        parameters
+    }
+
+    #[inline(never)]
+    fn controller(
+        parameters: &Parameters,
+        followers: &'static mut Followers,
+    ) -> &'static mut Controller<&'static mut Followers> {
+        let Ok(controller) = Controller::with(parameters, Addresses::DEFAULT, &NAME, followers) else {
             safe_state::halt(&|| defmt::error!("the parameters are refused"))
         };
         let placed = singleton!(: Controller<&'static mut Followers> = controller);
