@@ -6,6 +6,7 @@ pub mod effort;
 pub mod faults;
 pub mod fence;
 pub mod icd;
+pub mod image;
 pub mod machine;
 pub mod params;
 mod planar_arm;
@@ -55,6 +56,8 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
     Icd(icd::IcdArgs),
+    /// Print what an ARM image's flash and stack are for
+    Image(image::ImageArgs),
 }
 
 /// Writes to standard output. A reader that has gone away has had what it wanted.
@@ -93,6 +96,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
+        Ok(Hil { command: Command::Image(args) }) => image::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

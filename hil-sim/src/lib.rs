@@ -6,6 +6,7 @@
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
+//! - [`elf`] — what a linked image holds, who calls whom in it, and what stack that takes;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
@@ -22,6 +23,7 @@
 pub mod cli;
 pub mod coil_trial;
 pub mod effort;
+pub mod elf;
 pub mod faults;
 pub mod fence;
 pub mod icd;
