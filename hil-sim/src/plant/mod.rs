@@ -2,6 +2,7 @@
 
 pub mod actuator;
 pub mod coil;
+pub mod hydraulic;
 pub mod sensors;
 pub mod swing;
 

@@ -13,7 +13,7 @@ fn name(name: &str) -> Result<(), String> {
 }
 
 /// Each value within its range, by its field's name.
-pub(super) fn within(checks: &[(&str, f64, [f64; 2])]) -> Result<(), String> {
+pub(crate) fn within(checks: &[(&str, f64, [f64; 2])]) -> Result<(), String> {
     for &(field, value, [low, high]) in checks {
         // Written so that NaN fails.
         if !(value >= low && value <= high) {

@@ -16,6 +16,7 @@ use firmware::Parameters;
 use crate::machine_file::{MachineFile, MachineFileError};
 use crate::plant::{ActuatorModel, CoilModel};
 
+pub(crate) use check::within;
 pub use event::{Event, Events, Kind};
 pub use task::{LeverMove, Start, Task};
 
