@@ -1,36 +1,24 @@
-//! Cycle times of the 20 t class.
+//! Cycle times of the 20 t class: from the lever to the stop, dead time and cushion included. The boom starts from (and comes down to) the
+//! bucket on the ground, as it is timed on a machine; arm and bucket go through their whole strokes.
 
 use cross_tests::plant::*;
 
 #[test]
-fn explore() {
+fn the_cycle_times_are_those_of_the_class_within_fifteen_per_cent() {
     let m = model("zx200");
-    for (name, f, d, start) in [
-        ("boom up", BOOM, 1.0, [0.0, 0.5, 0.5]),
-        ("boom down", BOOM, -1.0, [1.0, 0.5, 0.5]),
-        ("arm in", ARM, 1.0, [0.7, 0.0, 0.5]),
-        ("arm out", ARM, -1.0, [0.7, 1.0, 0.5]),
-        ("bucket in", BUCKET, 1.0, [0.7, 0.5, 0.0]),
-        ("bucket out", BUCKET, -1.0, [0.7, 0.5, 1.0]),
+    let ground = on_ground("zx200", &m, [0.7, 0.7]);
+    let up = shares(&m, [1.0, 0.7, 0.7]);
+    let stroke = |f: usize| m.functions[f].stroke.expect("a cylinder");
+    println!("boom from {:.3} m on the ground to {:.3} m", ground[BOOM], up[BOOM]);
+    for (name, function, lever, start, end_m, class_s) in [
+        ("boom up", BOOM, 1.0, ground, up[BOOM], 4.0),
+        ("boom down", BOOM, -1.0, up, ground[BOOM], 2.5),
+        ("arm in", ARM, 1.0, shares(&m, [0.7, 0.0, 0.5]), stroke(ARM).max_m, 3.3),
+        ("arm out", ARM, -1.0, shares(&m, [0.7, 1.0, 0.5]), stroke(ARM).min_m, 3.2),
+        ("bucket in", BUCKET, 1.0, shares(&m, [0.7, 0.5, 0.0]), stroke(BUCKET).max_m, 2.4),
     ] {
-        let mut p = at(&m, shares(&m, start));
-        println!("{name}: start {:?} {:?}", p.positions(), p.pressures_pa());
-        let c = currents(&m, lever(f, d));
-        for t in 0..6000 {
-            p.step(c);
-            if t % 250 == 249 {
-                println!("{:5} pos {:?} v {:.3} p {:.2?} pump {:.2} {:.1} {:?}", t + 1, p.positions()[f], p.velocities()[f],
-                    p.pressures_pa()[f - 1].map(|x| x * 1e-6), p.pump_pressure_pa() * 1e-6, p.pump_flow_m3ps() * 6e4, p.against_stops());
-            }
-            if p.against_stops()[f] && t > 300 { println!("stop at {t}"); break; }
-        }
+        let time_s = time_to(&mut at(&m, start), &m, function, lever, end_m);
+        println!("{name:>10}: {time_s:.2} s, class {class_s} s, {:+.0} %", (time_s / class_s - 1.0) * 100.0);
+        assert!((time_s / class_s - 1.0).abs() < 0.15, "{name}: {time_s} s");
     }
-    let mut p = at(&m, shares(&m, [0.5, 0.5, 0.5]));
-    let t = std::time::Instant::now();
-    run(&mut p, &m, [0.0; 4], 20000);
-    println!("rest {:.2} us/ms", t.elapsed().as_secs_f64() / 20000.0 * 1e6);
-    let mut p = at(&m, shares(&m, [0.1, 0.5, 0.5]));
-    let t = std::time::Instant::now();
-    run(&mut p, &m, [0.3; 4], 2000);
-    println!("moving {:.2} us/ms", t.elapsed().as_secs_f64() / 2000.0 * 1e6);
 }

@@ -278,6 +278,12 @@ impl HydraulicPlant {
         self.circuit.settle(i, volumes);
     }
 
+    /// Changes the payload that stays in the bucket, kg: as if it were set down or taken off at rest.
+    pub fn set_payload_kg(&mut self, payload_kg: f64) {
+        self.bucket.fixed_kg = payload_kg;
+        self.body.links[2] = self.bucket.with(self.load_kg());
+    }
+
     /// True positions of swing, boom, arm, bucket: m, a swing motor rad.
     pub fn positions(&self) -> [f64; 4] {
         self.actuators.positions
