@@ -61,3 +61,19 @@ fn the_same_currents_give_the_same_bits() {
         assert_eq!(bits(course(machine, substeps)), bits(course(machine, substeps)));
     }
 }
+
+#[test]
+fn explore() {
+    for machine in MACHINES {
+        let refc = course(machine, 48);
+        for n in [2, 3, 4, 6, 12, 24] {
+            let c = course(machine, n);
+            let e = [0, 1, 2, 3].map(|f| {
+                let v = || refc.iter().map(|p| p[f]);
+                let t = v().fold(f64::MIN, f64::max) - v().fold(f64::MAX, f64::min);
+                c.iter().zip(&refc).map(|(a, b)| (a[f] - b[f]).abs()).fold(0.0, f64::max) / t * 100.0
+            });
+            println!("{machine} {n}: {e:.4?} %");
+        }
+    }
+}

@@ -43,10 +43,10 @@ fn stiffness(oil: &Oil, chamber: &Chamber, volume_m3: f64) -> (f64, f64) {
     (by_volume * volume_m3 / chamber.content_m3, by_volume)
 }
 
-/// A flow after the gallery and the side have changed by these, where a valve that closes lets nothing back.
-fn moved(flow: Flow, change: f64) -> f64 {
-    let after = flow.flow + flow.slope * change;
-    if after > 0.0 || flow.flow < 0.0 { after } else { 0.0 }
+/// A flow after a change of the pressure that drives it; a valve that closes lets nothing back.
+fn after(flow: Flow, change: f64) -> f64 {
+    let flow = flow.flow + flow.slope * change;
+    if flow > 0.0 { flow } else { 0.0 }
 }
 
 impl Circuit {
@@ -101,8 +101,8 @@ impl Circuit {
         self.everywhere().map(|chamber| ledger.stored_j(chamber.content_m3, chamber.pressure_pa)).sum()
     }
 
-    /// One sub-step of `h` seconds at standing volumes.
-    pub(super) fn step<O: Observer>(&mut self, functions: &[Function; 4], motion: &[Motion; 4], h: f64, observer: &mut O) {
+    /// Moves the oil of one sub-step of `h` seconds; the pressures stay until the volumes have followed ([`Circuit::settle`]).
+    pub(super) fn step(&mut self, functions: &[Function; 4], motion: &[Motion; 4], h: f64) -> Moved {
         let around = Around {
             gallery_pa: self.gallery.pressure_pa,
             tank_pa: self.tank_pa,
@@ -150,53 +150,97 @@ impl Circuit {
         }
         let gallery = h * by_content * (self.pump.flow_m3ps - drawn) / (1.0 + h * by_content * stiff);
 
-        let before = (self.gallery.pressure_pa, self.chambers);
-        let spilled = moved(spilled, gallery);
-        let mut feeds = [0.0; 4];
-        let mut moves = [[[0.0; 4]; 2]; 4];
+        let mut moved = Moved {
+            pumped: h * self.pump.flow_m3ps,
+            spilled: h * after(spilled, gallery),
+            fed: flows.map(|flow| flow.fed),
+            ..Moved::of(self)
+        };
         for f in 0..4 {
+            moved.across[f] = h * flows[f].across;
             for c in 0..2 {
                 let side = &flows[f].sides[c];
                 let fed = flows[f].fed == Some(c);
                 let change = own[f][c] + if fed { coupled[f] * gallery } else { 0.0 };
                 if fed {
                     let feed = flows[f].feed + flows[f].feed_by_gallery * gallery - flows[f].feed_by_side * change;
-                    feeds[f] = if feed > 0.0 { feed } else { 0.0 };
+                    moved.feeds[f] = if feed > 0.0 { h * feed } else { 0.0 };
                 }
-                let make_up = moved(side.make_up, -change);
-                moves[f][c] =
-                    [side.out.flow + side.out.slope * change, side.leak.flow + side.leak.slope * change, moved(side.relief, change), make_up];
-                let [out, leak, relieved, make_up] = moves[f][c];
-                let across = if c == 0 { -flows[f].across } else { flows[f].across };
-                let fed = if fed { feeds[f] } else { 0.0 };
-                let chamber = &mut self.chambers[f][c];
-                chamber.content_m3 += h * (fed + across + make_up - out - leak - relieved);
+                let sides = SidesMoved {
+                    out: h * (side.out.flow + side.out.slope * change),
+                    leak: h * (side.leak.flow + side.leak.slope * change),
+                    relief: h * after(side.relief, change),
+                    make_up: h * after(side.make_up, -change),
+                };
+                let across = if c == 0 { -moved.across[f] } else { moved.across[f] };
+                let fed = if fed { moved.feeds[f] } else { 0.0 };
+                self.chambers[f][c].content_m3 += fed + across + sides.make_up - sides.out - sides.leak - sides.relief;
+                moved.sides[f][c] = sides;
             }
-            self.settle(f, motion[f].volumes_m3);
         }
-        let given: f64 = feeds.iter().sum();
-        self.gallery.content_m3 += h * (self.pump.flow_m3ps - given - spilled);
+        let given: f64 = moved.feeds.iter().sum();
+        self.gallery.content_m3 += moved.pumped - given - moved.spilled;
         self.gallery.pressure_pa = self.oil.pressure_pa(self.gallery.content_m3, self.model.volume_m3);
+        moved
+    }
 
-        if O::LISTENS {
-            let mean = |a: f64, b: f64| 0.5 * (a + b);
-            let gallery = mean(before.0, self.gallery.pressure_pa);
-            observer.flow(Path::Pump, self.tank_pa, gallery, h * self.pump.flow_m3ps);
-            observer.flow(Path::MainRelief, gallery, self.tank_pa, h * spilled);
-            for f in 0..4 {
-                let side = |c: usize| mean(before.1[f][c].pressure_pa, self.chambers[f][c].pressure_pa);
-                if let Some(fed) = flows[f].fed {
-                    observer.flow(Path::MeterIn, gallery, side(fed), h * feeds[f]);
-                }
-                observer.flow(Path::PistonLeak, side(0), side(1), h * flows[f].across);
-                for c in 0..2 {
-                    let [out, leak, relieved, make_up] = moves[f][c];
-                    observer.flow(Path::MeterOut, side(c), self.tank_pa, h * out);
-                    observer.flow(Path::SpoolLeak, side(c), self.tank_pa, h * leak);
-                    observer.flow(Path::PortRelief, side(c), self.tank_pa, h * relieved);
-                    observer.flow(Path::MakeUp, self.tank_pa, side(c), h * make_up);
-                }
+    /// Tells an observer of what a sub-step moved, each flow at the mean of the pressures before and after.
+    pub(super) fn report<O: Observer>(&self, moved: &Moved, observer: &mut O) {
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        let gallery = mean(moved.gallery_pa, self.gallery.pressure_pa);
+        observer.flow(Path::Pump, self.tank_pa, gallery, moved.pumped);
+        observer.flow(Path::MainRelief, gallery, self.tank_pa, moved.spilled);
+        for f in 0..4 {
+            let side = |c: usize| mean(moved.pressures[f][c], self.chambers[f][c].pressure_pa);
+            if let Some(fed) = moved.fed[f] {
+                observer.flow(Path::MeterIn, gallery, side(fed), moved.feeds[f]);
             }
+            observer.flow(Path::PistonLeak, side(0), side(1), moved.across[f]);
+            for c in 0..2 {
+                let sides = &moved.sides[f][c];
+                observer.flow(Path::MeterOut, side(c), self.tank_pa, sides.out);
+                observer.flow(Path::SpoolLeak, side(c), self.tank_pa, sides.leak);
+                observer.flow(Path::PortRelief, side(c), self.tank_pa, sides.relief);
+                observer.flow(Path::MakeUp, self.tank_pa, side(c), sides.make_up);
+            }
+        }
+    }
+}
+
+/// Content that went in a sub-step, m³, and the absolute pressures before it, Pa.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved {
+    pumped: f64,
+    spilled: f64,
+    fed: [Option<usize>; 4],
+    feeds: [f64; 4],
+    across: [f64; 4],
+    sides: [[SidesMoved; 2]; 4],
+    gallery_pa: f64,
+    pressures: [[f64; 2]; 4],
+}
+
+/// Of one side, to the tank and from it.
+#[derive(Clone, Copy, Debug, Default)]
+struct SidesMoved {
+    out: f64,
+    leak: f64,
+    relief: f64,
+    make_up: f64,
+}
+
+impl Moved {
+    /// Nothing yet.
+    fn of(circuit: &Circuit) -> Self {
+        Self {
+            pumped: 0.0,
+            spilled: 0.0,
+            fed: [None; 4],
+            feeds: [0.0; 4],
+            across: [0.0; 4],
+            sides: [[SidesMoved::default(); 2]; 4],
+            gallery_pa: circuit.gallery.pressure_pa,
+            pressures: circuit.chambers.map(|pair| pair.map(|chamber| chamber.pressure_pa)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The machine in motion: spools → oil → forces → rates → positions, a few sub-steps a control tick.
 //!
-//! Pressures are stepped with the volumes standing and the bodies with the new pressures: a staggered step, which neither damps nor feeds the
-//! oscillation of oil and mass. What is stiff (openings, friction, soil) is implicit.
+//! Rates are stepped with the pressures of the moment, then the oil and the positions with the new rates: a staggered step, which neither damps nor
+//! feeds the oscillation of oil and mass. What is stiff (openings, friction, soil) is implicit.
 
 use kinematics_core::{PoseError, Vec2};
 
@@ -167,9 +167,6 @@ impl HydraulicPlant {
     fn substep<O: Observer>(&mut self, observer: &mut O) {
         let h = self.step_s;
         self.places = self.spools.each_mut().map(Spool::advance);
-        let motion = [0, 1, 2, 3].map(|i| self.motion(i));
-        self.circuit.step(&self.functions, &motion, h, observer);
-
         let speeds = self.velocities();
         let mut loads = Loads { torques: [0.0; 4], damping: [0.0; 4], tip: TipResistance::default(), held: [None; 3] };
         for i in 0..4 {
@@ -183,6 +180,8 @@ impl HydraulicPlant {
         let free = self.body.step(&self.posture, self.rates, &loads, h);
         let rates = self.held_by_stops(free, &mut loads);
         self.rates = rates;
+        let motion = [0, 1, 2, 3].map(|i| self.motion(i));
+        let moved = self.circuit.step(&self.functions, &motion, h);
         for (angle, rate) in self.angles.iter_mut().zip(rates) {
             *angle += h * rate;
         }
@@ -198,6 +197,7 @@ impl HydraulicPlant {
             loads.tip.force[1] - loads.tip.damping * velocity.z,
         ];
         if O::LISTENS {
+            self.circuit.report(&moved, observer);
             let friction: f64 = loads.damping.iter().zip(rates).map(|(damping, rate)| damping * rate * rate * h).sum();
             observer.loss(Loss::Friction, friction);
             let stopped = self.body.kinetic_energy(&posture, free) - self.body.kinetic_energy(&posture, rates);
