@@ -166,7 +166,9 @@ impl HydraulicPlant {
 
     fn substep<O: Observer>(&mut self, observer: &mut O) {
         let h = self.step_s;
-        self.places = self.spools.each_mut().map(Spool::advance);
+        for (place, spool) in self.places.iter_mut().zip(&mut self.spools) {
+            *place = spool.advance();
+        }
         let speeds = self.velocities();
         let mut loads = Loads { torques: [0.0; 4], damping: [0.0; 4], tip: TipResistance::default(), held: [None; 3] };
         for i in 0..4 {

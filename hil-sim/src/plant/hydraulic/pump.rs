@@ -90,12 +90,12 @@ pub(super) struct Demand {
 impl Pump {
     /// One sub-step: towards the flow that the functions would take at the target pressure, and that raises the gallery to it.
     pub(super) fn advance(&mut self, model: &PumpModel, demand: &Demand, h: f64) {
-        self.sensed_pa += (demand.load_pa - self.sensed_pa) * (h / (model.sense_lag_s + h));
+        self.sensed_pa += (demand.load_pa - self.sensed_pa) * (h / (model.sense_lag_s + 0.5 * h));
         let target = (self.sensed_pa + model.margin_pa).clamp(0.0, model.supply_pa);
         let by_power = model.power_w / if demand.gallery_pa > 1e5 { demand.gallery_pa } else { 1e5 };
         let most = if by_power < model.flow_m3ps { by_power } else { model.flow_m3ps };
         let raising = demand.slope + demand.capacity / (2.0 * model.lag_s);
         let wanted = (demand.taken + raising * (target - demand.gallery_pa)).clamp(0.0, most);
-        self.flow_m3ps += (wanted - self.flow_m3ps) * (h / (model.lag_s + h));
+        self.flow_m3ps += (wanted - self.flow_m3ps) * (h / (model.lag_s + 0.5 * h));
     }
 }
