@@ -2,6 +2,8 @@
 
 use kinematics_core::Cylinder;
 
+use crate::valve::coil_fault::FaultyCoil;
+
 /// The supervisor's state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
@@ -46,6 +48,10 @@ pub enum Fault {
     CoilConverter,
     /// The supply voltage left its range.
     Supply,
+    /// A coil, its driver or its wires.
+    Coil(FaultyCoil),
+    /// The position sensors' supply left its range.
+    SensorSupply,
     /// A position sensor's code left its range.
     Sensor(Cylinder),
     /// The lengths give no pose: a linkage does not close.
@@ -63,8 +69,8 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Every fault, most urgent first.
-    pub const ALL: [Self; 17] = [
+    /// Every fault of no coil, most urgent first.
+    const PLAIN: [Self; 18] = [
         Self::EmergencyStop,
         Self::Overrun,
         Self::CutOffWelded,
@@ -72,6 +78,7 @@ impl Fault {
         Self::SensorConverter,
         Self::CoilConverter,
         Self::Supply,
+        Self::SensorSupply,
         Self::Sensor(Cylinder::Swing),
         Self::Sensor(Cylinder::Boom),
         Self::Sensor(Cylinder::Arm),
@@ -83,6 +90,20 @@ impl Fault {
         Self::FollowingError,
         Self::Trajectory,
     ];
+
+    /// Every fault: those of no coil, most urgent first, then those of the coils.
+    pub const ALL: [Self; Self::PLAIN.len() + FaultyCoil::ALL.len()] = {
+        let mut all = [Self::EmergencyStop; Self::PLAIN.len() + FaultyCoil::ALL.len()];
+        let mut at = 0;
+        while at < all.len() {
+            all[at] = match at.checked_sub(Self::PLAIN.len()) {
+                None => Self::PLAIN[at],
+                Some(coil) => Self::Coil(FaultyCoil::ALL[coil]),
+            };
+            at += 1;
+        }
+        all
+    };
 
     /// As a byte, never 0.
     pub const fn code(self) -> u8 {
@@ -104,6 +125,8 @@ impl Fault {
             Self::CutOffStuckOpen => 15,
             Self::SensorConverter => 16,
             Self::CoilConverter => 17,
+            Self::SensorSupply => 63,
+            Self::Coil(coil) => coil.code(),
         }
     }
 
@@ -129,6 +152,8 @@ impl Fault {
             Self::CutOffStuckOpen => "cut_off_stuck_open",
             Self::SensorConverter => "sensor_converter_unsound",
             Self::CoilConverter => "coil_converter_unsound",
+            Self::SensorSupply => "sensor_supply_out_of_range",
+            Self::Coil(coil) => coil.name(),
             Self::NotAtStart => "not_at_start",
             Self::FollowingError => "following_error",
             Self::Trajectory => "trajectory_unreachable",

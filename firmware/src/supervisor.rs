@@ -8,9 +8,10 @@
 //! ```
 //! Outside `Running` every current is zero and the cut-off is open.
 
-use crate::command::Intent;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, Request};
+use crate::parameters::Supply;
+use crate::valve::coil_fault::FaultyCoil;
 
 /// A relay falls or closes within these; its contact may be elsewhere for so long.
 const CUT_OFF_TICKS: u16 = 50;
@@ -18,10 +19,12 @@ const CUT_OFF_TICKS: u16 = 50;
 /// What the stages report this tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watched {
-    /// The operator's intent.
-    pub intent: Intent,
     /// Supply voltage, V.
     pub supply_v: f32,
+    /// The position sensors' supply, V.
+    pub sensor_supply_v: f32,
+    /// The most urgent fault the coils' currents showed in the last tick.
+    pub coil: Option<FaultyCoil>,
     /// First fault of the stages sensing, pose and motion.
     pub stage_fault: Option<Fault>,
 }
@@ -39,6 +42,7 @@ pub enum Gate {
 #[derive(Clone, Copy, Debug)]
 pub struct Supervisor {
     supply_range_v: [f32; 2],
+    sensor_supply_range_v: [f32; 2],
     state: State,
     /// The latched fault: cleared only when running begins afresh.
     fault: Option<Fault>,
@@ -50,10 +54,11 @@ pub struct Supervisor {
 }
 
 impl Supervisor {
-    pub(crate) const fn new(supply_range_v: [f32; 2]) -> Self {
+    pub(crate) const fn new(supply: &Supply, sensor_supply: &Supply) -> Self {
         // A switch found on at power-up is no enable edge.
         Self {
-            supply_range_v,
+            supply_range_v: [supply.min_v, supply.max_v],
+            sensor_supply_range_v: [sensor_supply.min_v, sensor_supply.max_v],
             state: State::Locked,
             fault: None,
             enabled_before: true,
@@ -84,7 +89,7 @@ impl Supervisor {
             if inputs.cut_off_closed == self.told_closed { 0 } else { self.cut_off_astray.saturating_add(1) };
         let enable_edge = inputs.enable && !self.enabled_before;
         self.enabled_before = inputs.enable;
-        let at_rest = watched.intent.fresh && watched.intent.request == Request::Neutral;
+        let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
 
         if let Some(fault) = self.wrong(inputs, watched) {
             // The first fault stays named until the operator starts afresh; a later one is its consequence.
@@ -110,7 +115,8 @@ impl Supervisor {
 
     /// What is wrong this tick, most urgent first.
     fn wrong(&self, inputs: &Inputs, watched: &Watched) -> Option<Fault> {
-        let [low, high] = self.supply_range_v;
+        // Written so that NaN is outside.
+        let outside = |volts: f32, [low, high]: [f32; 2]| !(volts >= low && volts <= high);
         let [sensors_sound, coils_sound] = inputs.converters_sound;
         if inputs.emergency_stop {
             Some(Fault::EmergencyStop)
@@ -122,11 +128,15 @@ impl Supervisor {
             Some(Fault::SensorConverter)
         } else if !coils_sound {
             Some(Fault::CoilConverter)
-        } else if !(watched.supply_v >= low && watched.supply_v <= high) {
+        } else if outside(watched.supply_v, self.supply_range_v) {
             Some(Fault::Supply)
+        } else if let Some(coil) = watched.coil {
+            Some(Fault::Coil(coil))
+        } else if outside(watched.sensor_supply_v, self.sensor_supply_range_v) {
+            Some(Fault::SensorSupply)
         } else if watched.stage_fault.is_some() {
             watched.stage_fault
-        } else if self.state == State::Running && !watched.intent.fresh {
+        } else if self.state == State::Running && inputs.command.is_none() {
             Some(Fault::CommandStale)
         } else {
             None
