@@ -43,7 +43,8 @@ pub fn lever(function: usize, deflection: f64) -> [f64; 4] {
 /// Positions of all strokes at this share of each, the swing at zero (a swing cylinder half out).
 pub fn shares(model: &HydraulicModel, [boom, arm, bucket]: [f64; 3]) -> [f64; 4] {
     let g = &model.geometry;
-    let at = |stroke: kinematics_core::geometry::Stroke, share: f64| stroke.min_m + share * (stroke.max_m - stroke.min_m);
+    let at =
+        |stroke: kinematics_core::geometry::Stroke, share: f64| stroke.min_m + share * (stroke.max_m - stroke.min_m);
     let swing = g.swing.map_or(0.0, |pins| at(pins.stroke, 0.5));
     [swing, at(g.boom.stroke, boom), at(g.arm.stroke, arm), at(g.bucket.stroke, bucket)]
 }
@@ -54,7 +55,8 @@ pub fn on_ground(machine: &str, model: &HydraulicModel, [arm, bucket]: [f64; 2])
     let maps = Machine::<f64>::new(&model.geometry).expect("a shipped machine");
     let height = |share: f64| {
         let [_, boom, arm, bucket] = shares(model, [share, arm, bucket]);
-        let pose = maps.cylinders_to_tip(&Cylinders { boom, arm, bucket }, Rotor::IDENTITY).expect("within the strokes");
+        let pose =
+            maps.cylinders_to_tip(&Cylinders { boom, arm, bucket }, Rotor::IDENTITY).expect("within the strokes");
         pose.z() - ground
     };
     let (mut low, mut high) = if height(0.0) < height(1.0) { (0.0, 1.0) } else { (1.0, 0.0) };
@@ -72,7 +74,13 @@ pub fn run(plant: &mut HydraulicPlant, model: &HydraulicModel, levers: [f64; 4],
 }
 
 /// Time from the lever until the cylinder is at this length, s; infinite after 20 s.
-pub fn time_to(plant: &mut HydraulicPlant, model: &HydraulicModel, function: usize, deflection: f64, end_m: f64) -> f64 {
+pub fn time_to(
+    plant: &mut HydraulicPlant,
+    model: &HydraulicModel,
+    function: usize,
+    deflection: f64,
+    end_m: f64,
+) -> f64 {
     let currents = currents(model, lever(function, deflection));
     for tick in 1..20_000 {
         plant.step(currents);

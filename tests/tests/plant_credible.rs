@@ -72,7 +72,12 @@ fn without_currents_only_leakage_moves_a_loaded_machine_and_the_way_the_load_pus
     }
     let tight = drift(&model);
     for (i, (name, limit_mm)) in [("boom", 6.0), ("arm", 12.0), ("bucket", 18.0)].into_iter().enumerate() {
-        println!("{name}: drift in 3 min {:+.2} mm (class {limit_mm} mm) under {:+.0} kN; without leakage {:+.4} mm", leaking[i], -forces[i] * 1e-3, tight[i]);
+        println!(
+            "{name}: drift in 3 min {:+.2} mm (class {limit_mm} mm) under {:+.0} kN; without leakage {:+.4} mm",
+            leaking[i],
+            -forces[i] * 1e-3,
+            tight[i]
+        );
         assert!(leaking[i].abs() < limit_mm && leaking[i] * forces[i] < 0.0, "{name}: {} mm", leaking[i]);
         assert!(leaking[i].abs() > 0.1 && tight[i].abs() < 1e-3, "{name}");
     }
@@ -112,13 +117,24 @@ fn the_boom_rings_at_two_to_five_hertz_when_it_is_stopped() {
         let mut plant = at(&model, shares(&model, [0.4, arm, bucket]));
         run(&mut plant, &model, lever(BOOM, 0.6), 1500);
         let neutral = currents(&model, [0.0; 4]);
-        let speeds: Vec<f64> = (0..2500).map(|_| { plant.step(neutral); plant.velocities()[BOOM] }).collect();
+        let speeds: Vec<f64> = (0..2500)
+            .map(|_| {
+                plant.step(neutral);
+                plant.velocities()[BOOM]
+            })
+            .collect();
         // After the spool has closed: every other change of sign is a period.
         let turns: Vec<usize> = (300..speeds.len()).filter(|&i| speeds[i - 1] < 0.0 && speeds[i] >= 0.0).collect();
         let periods = turns.len().min(4) - 1;
         let hertz = 1e3 * periods as f64 / (turns[periods] - turns[0]) as f64;
-        let peak = |from: usize, to: usize| speeds[from..to].iter().fold(0.0, |p: f64, v| if v.abs() > p { v.abs() } else { p });
-        println!("arm at {arm}: {hertz:.2} Hz, from {:.1} to {:.1} mm/s in a period", peak(turns[0], turns[1]) * 1e3, peak(turns[1], turns[2]) * 1e3);
+        let peak = |from: usize, to: usize| {
+            speeds[from..to].iter().fold(0.0, |p: f64, v| if v.abs() > p { v.abs() } else { p })
+        };
+        println!(
+            "arm at {arm}: {hertz:.2} Hz, from {:.1} to {:.1} mm/s in a period",
+            peak(turns[0], turns[1]) * 1e3,
+            peak(turns[1], turns[2]) * 1e3
+        );
         assert!((2.0..5.0).contains(&hertz), "{hertz} Hz");
         assert!(peak(turns[1], turns[2]) < peak(turns[0], turns[1]));
     }

@@ -14,11 +14,17 @@ fn the_cycle_times_are_those_of_the_class_within_fifteen_per_cent() {
     ] {
         let stroke = m.functions[function].stroke.expect("a cylinder");
         let [at_retracted, at_extended] = m.functions[function].cushions.map(|cushion| cushion.length_m);
-        let (cushion_m, stop_m) =
-            if lever > 0.0 { (stroke.max_m - at_extended, stroke.max_m) } else { (stroke.min_m + at_retracted, stroke.min_m) };
+        let (cushion_m, stop_m) = if lever > 0.0 {
+            (stroke.max_m - at_extended, stroke.max_m)
+        } else {
+            (stroke.min_m + at_retracted, stroke.min_m)
+        };
         let time_s = time_to(&mut at(&m, shares(&m, start)), &m, function, lever, cushion_m);
         let stop_s = time_to(&mut at(&m, shares(&m, start)), &m, function, lever, stop_m);
-        println!("{name:>10}: {time_s:.2} s ({stop_s:.2} s to the stop), class {class_s} s, {:+.0} %", (time_s / class_s - 1.0) * 100.0);
+        println!(
+            "{name:>10}: {time_s:.2} s ({stop_s:.2} s to the stop), class {class_s} s, {:+.0} %",
+            (time_s / class_s - 1.0) * 100.0
+        );
         assert!((time_s / class_s - 1.0).abs() < 0.15, "{name}: {time_s} s");
     }
 }

@@ -38,8 +38,13 @@ fn drawing_the_bucket_through_loam_is_resisted_cuts_the_ground_and_fills_the_buc
     let (free, nothing) = drawn(&bare);
     let (digging, force) = drawn(&dig);
     let lowest = digging.ground().unwrap().profile().map(|[_, z]| z).fold(f64::MAX, f64::min) + file.boom_pin_height_m;
-    println!("{:.1} kN at most, {:.0} kg in the bucket, ground cut to {:.2} m; arm {:.0} mm behind the free one",
-        force * 1e-3, digging.load_kg(), lowest, (free.positions()[ARM] - digging.positions()[ARM]) * 1e3);
+    println!(
+        "{:.1} kN at most, {:.0} kg in the bucket, ground cut to {:.2} m; arm {:.0} mm behind the free one",
+        force * 1e-3,
+        digging.load_kg(),
+        lowest,
+        (free.positions()[ARM] - digging.positions()[ARM]) * 1e3
+    );
     assert_eq!(nothing, 0.0);
     assert!((5e3..200e3).contains(&force) && digging.load_kg() > 100.0 && lowest < -0.1);
     assert!(digging.positions()[ARM] < free.positions()[ARM]);

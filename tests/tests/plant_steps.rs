@@ -23,7 +23,10 @@ fn halving_the_step_changes_the_trajectory_by_less_than_a_thousandth() {
             let values = || fine.iter().map(|positions| positions[function]);
             let travel = values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min);
             let apart = coarse.iter().zip(&fine).map(|(a, b)| (a[function] - b[function]).abs()).fold(0.0, f64::max);
-            println!("{machine} {function}: travel {travel:.3}, apart at most {apart:.2e}, {:.4} %", apart / travel * 1e2);
+            println!(
+                "{machine} {function}: travel {travel:.3}, apart at most {apart:.2e}, {:.4} %",
+                apart / travel * 1e2
+            );
             assert!(travel > 0.05 && apart < 1e-3 * travel, "{machine} {function}: {apart} of {travel}");
         }
     }
@@ -59,21 +62,5 @@ fn the_same_currents_give_the_same_bits() {
         let substeps = model(machine).substeps;
         let bits = |course: Vec<[f64; 4]>| course.into_iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
         assert_eq!(bits(course(machine, substeps)), bits(course(machine, substeps)));
-    }
-}
-
-#[test]
-fn explore() {
-    for machine in MACHINES {
-        let refc = course(machine, 48);
-        for n in [2, 3, 4, 6, 12, 24] {
-            let c = course(machine, n);
-            let e = [0, 1, 2, 3].map(|f| {
-                let v = || refc.iter().map(|p| p[f]);
-                let t = v().fold(f64::MIN, f64::max) - v().fold(f64::MAX, f64::min);
-                c.iter().zip(&refc).map(|(a, b)| (a[f] - b[f]).abs()).fold(0.0, f64::max) / t * 100.0
-            });
-            println!("{machine} {n}: {e:.4?} %");
-        }
     }
 }

@@ -4,7 +4,9 @@ use kinematics_core::PinGeometry;
 use kinematics_core::geometry::Stroke;
 use serde::Deserialize;
 
-use crate::plant::hydraulic::{Compensation, Cushion, Friction, FunctionModel, Oil, PumpModel, SpoolModel, conductance};
+use crate::plant::hydraulic::{
+    Compensation, Cushion, Friction, FunctionModel, Oil, PumpModel, SpoolModel, conductance,
+};
 use crate::scenario::within;
 
 /// Pump, oil, spools and functions.
@@ -212,10 +214,12 @@ impl FunctionTable {
                 check("motor_l_per_rad", litres, [0.001, 50.0])?;
                 Ok([litres * 1e-3; 2])
             }
-            (true, ..) => Err(format!("`hydraulics.{name}`: a cylinder needs `bore_m`, `rod_m` and `count`, and no motor")),
-            (false, ..) => {
-                Err(format!("`hydraulics.{name}`: without a swing cylinder it needs `motor_l_per_rad` alone of the four"))
+            (true, ..) => {
+                Err(format!("`hydraulics.{name}`: a cylinder needs `bore_m`, `rod_m` and `count`, and no motor"))
             }
+            (false, ..) => Err(format!(
+                "`hydraulics.{name}`: without a swing cylinder it needs `motor_l_per_rad` alone of the four"
+            )),
         }
     }
 }

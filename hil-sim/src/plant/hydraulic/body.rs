@@ -184,8 +184,7 @@ impl Body {
 
         let inertia = self.swing_inertia(p);
         let turned = swing_slopes[0] * boom + swing_slopes[1] * (boom + arm) + swing_slopes[2] * (boom + arm + bucket);
-        let swing =
-            (inertia * rates[0] + h * loads.torques[0]) / (inertia + h * (loads.damping[0] + turned));
+        let swing = (inertia * rates[0] + h * loads.torques[0]) / (inertia + h * (loads.damping[0] + turned));
         [swing, boom_after, arm_after, bucket_after]
     }
 }

@@ -68,7 +68,13 @@ fn after(flow: Flow, change: f64) -> f64 {
 
 impl Circuit {
     /// At rest with these absolute pressures.
-    pub(super) fn new(oil: Oil, model: PumpModel, tank_pa: f64, volumes: [[f64; 2]; 4], pressures: [[f64; 2]; 4]) -> Self {
+    pub(super) fn new(
+        oil: Oil,
+        model: PumpModel,
+        tank_pa: f64,
+        volumes: [[f64; 2]; 4],
+        pressures: [[f64; 2]; 4],
+    ) -> Self {
         let chamber = |f: usize, c: usize| Chamber::filled(&oil, volumes[f][c], pressures[f][c]);
         let stand_by = ATMOSPHERE_PA + model.margin_pa;
         Self {
@@ -120,29 +126,27 @@ impl Circuit {
 
     /// Moves the oil of one sub-step of `h` seconds; the pressures stay until the volumes have followed ([`Circuit::settle`]).
     pub(super) fn step(&mut self, functions: &[Function; 4], motion: &[Motion; 4], h: f64) -> Moved {
+        // The pump sees the highest load; what it makes of it holds from half a sub-step ago to half a sub-step ahead, as the rates do.
+        let mut highest = 0.0;
+        for (f, motion) in motion.iter().enumerate() {
+            let load = motion.opened.map_or(0.0, |(side, _)| self.chambers[f][side].pressure_pa - ATMOSPHERE_PA);
+            highest = if load > highest { load } else { highest };
+        }
+        self.pump.sense(&self.model, highest, h);
         let around = Around {
             gallery_pa: self.gallery.pressure_pa,
             tank_pa: self.tank_pa,
             highest_pa: ATMOSPHERE_PA + self.pump.sensed_pa,
         };
-        let flows: [FunctionFlows; 4] = [0, 1, 2, 3].map(|f| {
-            functions[f].flows(motion[f].opened, self.pressures(f), &around, motion[f].ends_m)
-        });
-
-        // The pump sees the highest load and what the functions take.
-        let (mut highest, mut taken, mut slope) = (0.0, 0.0, 0.0);
-        for (f, flow) in flows.iter().enumerate() {
-            let load = flow.fed.map_or(0.0, |side| self.chambers[f][side].pressure_pa - ATMOSPHERE_PA);
-            highest = if load > highest { load } else { highest };
-            taken += flow.feed;
-            slope += flow.feed_by_gallery;
-        }
+        let flows: [FunctionFlows; 4] =
+            [0, 1, 2, 3].map(|f| functions[f].flows(motion[f].opened, self.pressures(f), &around, motion[f].ends_m));
+        let taken: f64 = flows.iter().map(|flow| flow.feed).sum();
+        let slope: f64 = flows.iter().map(|flow| flow.feed_by_gallery).sum();
         let (by_content, _) = stiffness(&self.oil, &self.gallery, self.model.volume_m3);
         let over = around.gallery_pa - ATMOSPHERE_PA;
-        let demand = Demand { load_pa: highest, gallery_pa: over, capacity: 1.0 / by_content, taken, slope };
-        let flow_before = self.pump.flow_m3ps;
+        let demand = Demand { gallery_pa: over, capacity: 1.0 / by_content, taken, slope };
         self.pump.advance(&self.model, &demand, h);
-        let pumped = 0.5 * (flow_before + self.pump.flow_m3ps);
+        let pumped = self.pump.flow_m3ps;
         let mut spilled = relief(self.model.relief_gain(), over, self.model.supply_pa);
         spilled.slope *= WEIGHT;
         let flows = flows.map(FunctionFlows::weighted);

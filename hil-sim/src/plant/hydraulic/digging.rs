@@ -103,7 +103,8 @@ impl Digging {
         }
         let by_speed = 1.0 / (velocity.norm() + SMOOTH_MPS);
         // Across the motion, downwards: a flat blade is drawn in.
-        let side = if velocity.x > 0.0 { Vec2::new(velocity.z, -velocity.x) } else { Vec2::new(-velocity.z, velocity.x) };
+        let side =
+            if velocity.x > 0.0 { Vec2::new(velocity.z, -velocity.x) } else { Vec2::new(-velocity.z, velocity.x) };
         let across = side.scale(self.across_n * by_speed);
         TipResistance { damping: self.along_n * by_speed, force: [across.x, across.z] }
     }

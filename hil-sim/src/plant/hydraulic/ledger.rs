@@ -126,7 +126,9 @@ impl Observer for Ledger {
                 self.pumped_m3 += content_m3;
             }
             Path::MeterIn | Path::MeterOut => self.metering_j += lost,
-            Path::MainRelief | Path::PistonLeak | Path::SpoolLeak | Path::PortRelief | Path::MakeUp => self.valves_j += lost,
+            Path::MainRelief | Path::PistonLeak | Path::SpoolLeak | Path::PortRelief | Path::MakeUp => {
+                self.valves_j += lost
+            }
         }
         match path {
             Path::MakeUp => self.made_up_m3 += content_m3,

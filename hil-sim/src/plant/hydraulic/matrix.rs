@@ -18,7 +18,8 @@ impl Sym3 {
     /// Adds `by`·JᵀJ, the columns of J turning these levers.
     pub(super) fn add_tip(&mut self, levers: [Vec2<f64>; 3], by: f64) {
         let [a, b, c] = levers;
-        self.d = [self.d[0] + by * a.norm_squared(), self.d[1] + by * b.norm_squared(), self.d[2] + by * c.norm_squared()];
+        self.d =
+            [self.d[0] + by * a.norm_squared(), self.d[1] + by * b.norm_squared(), self.d[2] + by * c.norm_squared()];
         self.o = [self.o[0] + by * a.dot(b), self.o[1] + by * a.dot(c), self.o[2] + by * b.dot(c)];
     }
 

@@ -38,7 +38,7 @@ pub struct HydraulicModel {
 }
 
 /// Sub-steps of a control tick that the figures of `docs/plant.md` are made with.
-const SUBSTEPS: u32 = 3;
+const SUBSTEPS: u32 = 5;
 
 /// What a machine file lacks for a hydraulic plant.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -95,14 +95,16 @@ impl HydraulicPlant {
         let joints = JointMap::new(&model.geometry)?;
         let angles = joints.angles(start).map_err(StartError::Position)?;
         let actuators = joints.actuators(angles, &Actuators { positions: start, arms: [1.0; 4] });
-        let bucket = BucketLoad {
-            empty: model.links[2],
-            fixed_kg: model.payload_kg,
-            length_m: model.geometry.bucket_m,
-        };
+        let bucket =
+            BucketLoad { empty: model.links[2], fixed_kg: model.payload_kg, length_m: model.geometry.bucket_m };
         let [boom, arm, _] = model.links;
         let body = Body {
-            lengths: [model.geometry.boom_pin_x_m, model.geometry.boom_m, model.geometry.arm_m, model.geometry.bucket_m],
+            lengths: [
+                model.geometry.boom_pin_x_m,
+                model.geometry.boom_m,
+                model.geometry.arm_m,
+                model.geometry.bucket_m,
+            ],
             links: [boom, arm, bucket.with(0.0)],
             upper_inertia_kgm2: model.upper_inertia_kgm2,
         };
@@ -194,10 +196,8 @@ impl HydraulicPlant {
             self.follow(i);
         }
         let velocity = posture.tip_velocity(rates);
-        self.soil_force = [
-            loads.tip.force[0] - loads.tip.damping * velocity.x,
-            loads.tip.force[1] - loads.tip.damping * velocity.z,
-        ];
+        self.soil_force =
+            [loads.tip.force[0] - loads.tip.damping * velocity.x, loads.tip.force[1] - loads.tip.damping * velocity.z];
         if O::LISTENS {
             self.circuit.report(&moved, observer);
             let friction: f64 = loads.damping.iter().zip(rates).map(|(damping, rate)| damping * rate * rate * h).sum();
@@ -234,7 +234,8 @@ impl HydraulicPlant {
         for _ in 0..3 {
             let mut more = false;
             for joint in 1..4 {
-                if let Some(rate) = self.stopping_rate(joint, rates[joint]).filter(|_| loads.held[joint - 1].is_none()) {
+                if let Some(rate) = self.stopping_rate(joint, rates[joint]).filter(|_| loads.held[joint - 1].is_none())
+                {
                     loads.held[joint - 1] = Some(rate);
                     self.against_stop[joint] = true;
                     more = true;

@@ -75,8 +75,6 @@ pub(super) struct Pump {
 /// What the pump meets in a sub-step; pressures above the atmosphere, Pa.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Demand {
-    /// The highest load.
-    pub(super) load_pa: f64,
     /// In the gallery.
     pub(super) gallery_pa: f64,
     /// dN/dp of the gallery, m³/Pa.
@@ -88,9 +86,13 @@ pub(super) struct Demand {
 }
 
 impl Pump {
+    /// One sub-step of the load-sensing line towards the highest load, Pa above the atmosphere.
+    pub(super) fn sense(&mut self, model: &PumpModel, load_pa: f64, h: f64) {
+        self.sensed_pa += (load_pa - self.sensed_pa) * (h / (model.sense_lag_s + 0.5 * h));
+    }
+
     /// One sub-step: towards the flow that the functions would take at the target pressure, and that raises the gallery to it.
     pub(super) fn advance(&mut self, model: &PumpModel, demand: &Demand, h: f64) {
-        self.sensed_pa += (demand.load_pa - self.sensed_pa) * (h / (model.sense_lag_s + 0.5 * h));
         let target = (self.sensed_pa + model.margin_pa).clamp(0.0, model.supply_pa);
         let by_power = model.power_w / if demand.gallery_pa > 1e5 { demand.gallery_pa } else { 1e5 };
         let most = if by_power < model.flow_m3ps { by_power } else { model.flow_m3ps };

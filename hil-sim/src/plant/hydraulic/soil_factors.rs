@@ -54,20 +54,17 @@ impl Soil {
         let divisor = cos(blade) + sin(blade) * shear;
         let spread = cot(rake) + cot(failure);
         (divisor > 1e-3 && spread > 1e-3).then(|| {
-            [
-                0.5 * spread / divisor,
-                (1.0 + cot(failure) * shear) / divisor,
-                (1.0 - cot(rake) * shear) / divisor,
-            ]
+            [0.5 * spread / divisor, (1.0 + cot(failure) * shear) / divisor, (1.0 - cot(rake) * shear) / divisor]
         })
     }
 
     /// N_γ, N_c and N_ca at a rake, rad: of the failure angle with the least N_γ.
     pub fn factors(&self, rake: f64) -> [f64; 3] {
         let angles = (1..150).map(|i| f64::from(i) * 0.01);
-        let least = angles.filter_map(|failure| self.factors_at(rake, failure)).fold(None, |least: Option<[f64; 3]>, n| {
-            if least.is_none_or(|l| n[0] < l[0]) { Some(n) } else { least }
-        });
+        let least =
+            angles.filter_map(|failure| self.factors_at(rake, failure)).fold(None, |least: Option<[f64; 3]>, n| {
+                if least.is_none_or(|l| n[0] < l[0]) { Some(n) } else { least }
+            });
         least.unwrap_or_default()
     }
 
