@@ -7,6 +7,7 @@ mod check;
 mod event;
 mod fence;
 mod file;
+mod modes;
 mod task;
 
 use std::path::{Path, PathBuf};
@@ -17,7 +18,7 @@ use crate::machine_file::{MachineFile, MachineFileError};
 use crate::plant::{ActuatorModel, CoilModel};
 
 pub use event::{Event, Events, Kind};
-pub use task::{LeverMove, Start, Task};
+pub use task::{LeverMove, Start, Task, TipMove};
 
 /// A scenario, checked, with everything a run needs.
 #[derive(Clone, Debug)]
