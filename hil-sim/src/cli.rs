@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod coil;
 pub mod effort;
+pub mod faults;
 pub mod fence;
 pub mod icd;
 pub mod machine;
@@ -44,6 +45,8 @@ enum Command {
     Run(run::RunArgs),
     /// Try fences with random operators on the simulated machine: whole linkage, tip only, none
     Fence(fence::FenceArgs),
+    /// Break everything that can break, in every situation, thousands of times: what is seen, how soon, and the tip's way to standstill
+    Faults(faults::FaultsArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
     Scenes(scenes::ScenesArgs),
     /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
@@ -86,6 +89,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
+        Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),

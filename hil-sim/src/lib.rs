@@ -10,6 +10,7 @@
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`record`] — the controller's parameter record as a file;
+//! - [`faults`] — the fault campaign: what is seen, how soon, and how far the tip still goes;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
@@ -21,6 +22,7 @@
 pub mod cli;
 pub mod coil_trial;
 pub mod effort;
+pub mod faults;
 pub mod fence;
 pub mod icd;
 pub mod labels;

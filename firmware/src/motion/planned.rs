@@ -17,7 +17,7 @@ use crate::{TICK, TICKS_PER_S};
 pub(super) struct MoveFollower {
     planned: Move,
     ahead: Pace<f32>,
-    delay: DelayLine<1, 256>,
+    delay: DelayLine<1>,
     preview_ticks: u32,
     /// Ticks since the request; 0 before.
     elapsed: u32,
