@@ -23,10 +23,13 @@ mod ecu;
 pub mod fault;
 pub mod fence;
 pub mod frame;
+pub mod grade;
 pub mod io;
+pub mod law;
 pub mod motion;
 pub mod moves;
 pub mod parameters;
+pub mod path;
 pub mod pose;
 pub mod sensing;
 #[cfg(feature = "simulated")]
