@@ -1,6 +1,7 @@
 //! The valve map as a calibration would leave it: the plant's own, with the errors a calibration has.
 
 use firmware::valve::coil_stage::CoilStageParameters;
+use firmware::valve::dither::DitherParameters;
 use firmware::valve::flow_map::{FlowParameters, KNOTS};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -42,6 +43,9 @@ fn believed(plant: &HydraulicModel, coils: &CoilStageParameters, mut error: impl
     let mut coils = *coils;
     let full_a = plant.spool.full_scale_a;
     for (function, spool) in coils.spools.iter_mut().enumerate() {
+        // Wider than the spool's play, which it takes away.
+        let amplitude_a = (0.6 * plant.spool.hysteresis * full_a) as f32;
+        spool.dither = DitherParameters { frequency_hz: 62.5, amplitude_a, fade_below_a: 2.0 * amplitude_a + 0.01 };
         for (direction, flow) in spool.flow.iter_mut().enumerate() {
             let band = plant.functions[function].dead_band[direction];
             let sign = if direction == 0 { 1.0 } else { -1.0 };
