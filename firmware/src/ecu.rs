@@ -13,7 +13,7 @@ use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
-use crate::supervisor::{Gate, Supervisor, Watched};
+use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::Valve;
 
@@ -73,13 +73,18 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         })
     }
 
+    /// Takes the board's start-up report; before every step of it has passed nothing is enabled.
+    pub fn self_tested(&mut self, report: &SelfTest) {
+        self.supervisor.self_tested(report);
+    }
+
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let supply_v = self.sensing.supply_v(inputs);
         let intent = self.command.read(inputs);
 
         let wanted = self.sense_and_follow(inputs, &intent);
-        let watched = Watched { intent, supply_v, stage_fault: wanted.err() };
+        let watched = Watched { intent, supply_v, stage_fault: wanted.err(), moving: false };
         let gate = self.supervisor.judge(inputs, &watched);
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
@@ -96,8 +101,9 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             tick: self.tick,
             state: self.supervisor.state(),
             fault: self.supervisor.fault(),
+            late: inputs.overrun,
             cut_off_closed: gate == Gate::Open,
-            pose_valid: !matches!(watched.stage_fault, Some(Fault::Sensor(_) | Fault::Geometry)),
+            pose_valid: !watched.stage_fault.is_some_and(Fault::hides_pose),
             lengths: self.lengths,
             pose: self.pose,
             dig_tick: wanted.dig_tick,

@@ -160,7 +160,7 @@ impl Outputs {
         let mut bytes = [0; OUTPUT_BYTES];
         let mut w = Writer { rest: bytes.iter_mut() };
         w.bytes(self.tick.to_le_bytes());
-        let flags = u8::from(self.cut_off_closed) | u8::from(self.pose_valid) << 1;
+        let flags = u8::from(self.cut_off_closed) | u8::from(self.pose_valid) << 1 | u8::from(self.late) << 2;
         w.bytes([self.state.code(), self.fault.map_or(0, Fault::code), flags]);
         w.cylinders(self.lengths);
         let pose = self.pose;
@@ -203,7 +203,7 @@ impl Outputs {
             value => Some(Fault::from_code(value).ok_or(FrameError { field: "fault", value })?),
         };
         let flags = r.byte();
-        if flags > 3 {
+        if flags > 7 {
             return Err(FrameError { field: "flags", value: flags });
         }
         let lengths = r.cylinders();
@@ -217,6 +217,7 @@ impl Outputs {
             fault,
             cut_off_closed: flags & 1 != 0,
             pose_valid: flags & 2 != 0,
+            late: flags & 4 != 0,
             lengths,
             pose: Pose { swing, joints, plane, x, y },
             dig_tick: r.u32(),

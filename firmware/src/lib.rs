@@ -39,6 +39,7 @@ pub use fault::{Fault, State};
 pub use io::{Inputs, Outputs, Request};
 pub use motion::Followers;
 pub use parameters::{ParameterError, Parameters};
+pub use supervisor::SelfTest;
 
 /// The control period, s.
 pub const TICK_S: f32 = 0.001;

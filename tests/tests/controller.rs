@@ -8,7 +8,7 @@ use firmware::board::signals::RANGES;
 use firmware::can::address::Addresses;
 use firmware::can::command::Mode;
 use firmware::can::table::received::{ARM_COMMAND, BOOM_COMMAND, BUCKET_COMMAND, MODE, SWING_COMMAND};
-use firmware::{Fault, Outputs, Request, State};
+use firmware::{Fault, Outputs, Request, SelfTest, State};
 use sim_chips::ads8688::{Break, Span};
 
 /// A controller on its board, and an operator on the bus.
@@ -30,7 +30,8 @@ impl Machine {
     /// At the dig's start, everything healthy.
     fn new() -> Self {
         let parameters = scenario("dig").parameters;
-        let controller = Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("a valid record");
+        let mut controller = Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("a valid record");
+        controller.self_tested(&SelfTest::PASSED);
         let mut machine = Self {
             board: board_on(Bus::default()),
             controller,

@@ -69,9 +69,8 @@ fn switching_enable_off_stops_in_the_same_tick_without_a_fault() {
 type Break = fn(&mut Rig);
 
 /// Every fault that one input can cause while digging.
-const BREAKS: [(&str, Break, Fault); 9] = [
+const BREAKS: [(&str, Break, Fault); 8] = [
     ("emergency stop", |rig| rig.inputs.emergency_stop = true, Fault::EmergencyStop),
-    ("overrun", |rig| rig.inputs.overrun = true, Fault::Overrun),
     ("supply lost", |rig| rig.inputs.supply_code = 0, Fault::Supply),
     ("supply too high", |rig| rig.inputs.supply_code = 65535, Fault::Supply),
     ("swing sensor open", |rig| rig.inputs.codes[0] = 0, Fault::Sensor(Cylinder::Swing)),
@@ -283,9 +282,10 @@ proptest! {
         for inputs in inputs {
             let outputs = ecu.tick(&inputs);
             prop_assert!(outputs.state == State::Running || is_safe(&outputs));
-            prop_assert!((outputs.state == State::Fault) <= outputs.fault.is_some());
+            prop_assert!(matches!(outputs.state, State::Fault | State::Stopped) <= outputs.fault.is_some());
             prop_assert_eq!(outputs.cut_off_closed, outputs.state == State::Running);
-            if inputs.emergency_stop || inputs.overrun || !inputs.enable {
+            prop_assert_eq!(outputs.late, inputs.overrun);
+            if inputs.emergency_stop || !inputs.enable {
                 prop_assert!(is_safe(&outputs));
             }
             for [extend, retract] in outputs.currents {

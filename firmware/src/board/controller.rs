@@ -13,7 +13,7 @@ use crate::can::inbox::Inbox;
 use crate::can::{CanFrame, Node};
 use crate::io::{Inputs, Outputs, Request};
 use crate::motion::Followers;
-use crate::{Ecu, ParameterError, Parameters};
+use crate::{Ecu, Fault, ParameterError, Parameters, SelfTest};
 
 /// CAN frames taken in a tick: 500 kbit/s carry no more than four in a millisecond.
 const FRAMES: usize = 4;
@@ -77,6 +77,11 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         })
     }
 
+    /// As [`Ecu::self_tested`].
+    pub fn self_tested(&mut self, report: &SelfTest) {
+        self.ecu.self_tested(report);
+    }
+
     /// One control period; `overrun` says that the one before did not end in time.
     ///
     /// The watchdog is fed only here, and only when every output took what it was given.
@@ -93,7 +98,9 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         if write(board, &outputs).is_ok() {
             board.feed_watchdog();
         }
-        for frame in self.node.due(&outputs, ActiveFaults::from(outputs.fault)).iter().flatten() {
+        let latched = ActiveFaults::from(outputs.fault);
+        let active = if outputs.late { latched.with(Fault::LateTick) } else { latched };
+        for frame in self.node.due(&outputs, active).iter().flatten() {
             if let Some(frame) = embedded_can::Frame::new(frame.extended_id(), embedded_can::Frame::data(frame)) {
                 // A full mailbox loses telemetry, nothing else.
                 let _ = board.can().transmit(&frame);

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use firmware::{Ecu, Inputs, Parameters};
+use firmware::{Ecu, Inputs, Parameters, SelfTest};
 
 use super::{Place, PlaceError, Reply, Timing};
 
@@ -18,7 +18,8 @@ impl Host {
     /// # Errors
     /// Parameters it refuses.
     pub fn new(parameters: &Parameters) -> Result<Self, PlaceError> {
-        let ecu = Ecu::new(parameters).map_err(|error| PlaceError::Parameters(error.to_string()))?;
+        let mut ecu = Ecu::new(parameters).map_err(|error| PlaceError::Parameters(error.to_string()))?;
+        ecu.self_tested(&SelfTest::PASSED);
         Ok(Self { ecu })
     }
 }

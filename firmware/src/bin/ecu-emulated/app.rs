@@ -7,7 +7,7 @@ mod app {
     use crate::emulated::{fail, stack, succeed};
     use firmware::frame::{INPUT_BYTES, OUTPUT_BYTES};
     use firmware::link::{KIND_END, RECORD_BYTES, REPLY_BYTES};
-    use firmware::{Ecu, Followers, Inputs, Parameters};
+    use firmware::{Ecu, Followers, Inputs, Parameters, SelfTest};
     use stm32f4::stm32f405::TIM2;
 
     /// The emulator clocks TIM2 at 1 GHz, and starts over after as many counts as the register says (the chip: one more).
@@ -45,7 +45,12 @@ mod app {
         link.read(record)?;
         let mut text = Text::default();
         let built = match postcard::from_bytes::<Parameters>(record) {
-            Ok(parameters) => Ecu::with(&parameters, followers).map_err(|error| text.set(&error)),
+            Ok(parameters) => Ecu::with(&parameters, followers)
+                .map(|mut ecu| {
+                    ecu.self_tested(&SelfTest::PASSED);
+                    ecu
+                })
+                .map_err(|error| text.set(&error)),
             Err(error) => {
                 text.set(&error);
                 Err(())
