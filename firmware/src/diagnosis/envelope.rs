@@ -1,0 +1,125 @@
+//! The delay model: what speeds a healthy actuator may have after its commands so far, and which it must have.
+//!
+//! Dead time lies between none and the longest, so speed may be anything between the lowest and the highest command of that time. After
+//! the highest it may fall off in a straight line over the run-on, and a released speed may ring back by its share. The speed it must
+//! have is the command nearest to zero of that time, behind the slowest spool.
+
+use super::ROUND_S;
+use super::parameters::DiagnosisParameters;
+
+/// What all actuators calculate with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Model {
+    /// Share of a speed that the run-on takes off in a round.
+    run_on_share: f32,
+    /// Share of the way to its command that the slowest spool goes in a round.
+    lag_share: f32,
+    over: f32,
+    ring: f32,
+    /// By how much less a speed bounces back than rings back.
+    calmer: f32,
+    /// Rounds of the longest dead time.
+    pub(super) dead_rounds: u8,
+}
+
+impl Model {
+    /// Of valid parameters.
+    pub(super) fn new(p: &DiagnosisParameters) -> Self {
+        let share = |time_s: f32| if time_s > ROUND_S { ROUND_S / time_s } else { 1.0 };
+        Self {
+            run_on_share: share(p.run_on_s),
+            lag_share: share(p.spool_lag_s),
+            over: 1.0 + p.overshoot,
+            ring: p.ring,
+            calmer: p.ring - p.rebound,
+            // The cast saturates; at most 250.
+            dead_rounds: (p.latest_start_s / ROUND_S) as u8,
+        }
+    }
+}
+
+/// A speed that may still be there: at once up with its command, down in a straight line.
+#[derive(Clone, Copy, Debug, Default)]
+struct RunOn {
+    level: f32,
+    slope: f32,
+}
+
+impl RunOn {
+    #[inline(always)]
+    fn follow(&mut self, command: f32, share: f32) {
+        let fallen = self.level - self.slope;
+        if command > fallen {
+            *self = Self { level: command, slope: command * share };
+        } else {
+            self.level = if fallen > 0.0 { fallen } else { 0.0 };
+        }
+    }
+}
+
+/// Lowest and highest command of a stretch of time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Span {
+    low: f32,
+    high: f32,
+}
+
+/// What the model says now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Expected {
+    /// Lowest speed.
+    pub(super) low: f32,
+    /// Highest speed.
+    pub(super) high: f32,
+    /// The speed there must be, if nothing holds the actuator back.
+    pub(super) sure: f32,
+}
+
+/// One actuator's model.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Envelope {
+    /// Since the last of the moments that lie the dead time apart, and from the one before to it.
+    spans: [Span; 2],
+    out: RunOn,
+    back: RunOn,
+    sure: f32,
+}
+
+impl Envelope {
+    /// One round under this command; `turned` once every dead time.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> Expected {
+        let [now, before] = &mut self.spans;
+        if command < now.low {
+            now.low = command;
+        }
+        if command > now.high {
+            now.high = command;
+        }
+        let low = if before.low < now.low { before.low } else { now.low };
+        let high = if before.high > now.high { before.high } else { now.high };
+        if turned {
+            (*before, *now) = (*now, Span { low: command, high: command });
+        }
+        self.out.follow(high, model.run_on_share);
+        self.back.follow(-low, model.run_on_share);
+        let must = if low > 0.0 {
+            low
+        } else if high < 0.0 {
+            high
+        } else {
+            // Released or reversed: the past promises nothing.
+            self.sure = 0.0;
+            0.0
+        };
+        self.sure += (must - self.sure) * model.lag_share;
+        let (out, back) = (self.out.level, self.back.level);
+        let bounce = model.calmer * command;
+        let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
+        Expected {
+            low: -(model.over * back + model.ring * out - bounce_out),
+            high: model.over * out + model.ring * back - bounce_back,
+            sure: self.sure,
+        }
+    }
+}
