@@ -5,9 +5,11 @@ use core::borrow::BorrowMut;
 use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::{Command, Intent};
+use crate::diagnosis::{Diagnosis, NO_PRESSURES};
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
 use crate::fence::{Fence, Fenced, NO_CLEARANCE};
+use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
@@ -23,12 +25,14 @@ use crate::valve::Valve;
 pub struct Ecu<F = Followers> {
     machine: Machine<f32>,
     sensing: Sensing,
+    diagnosis: Diagnosis,
     command: Command,
     motion: Motion<F>,
     fence: Option<Fence>,
     supervisor: Supervisor,
     valve: Valve,
     tick: u32,
+    freeze_frame: Option<FreezeFrame>,
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
 }
@@ -60,6 +64,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         }
         let fence = p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.valves)).transpose()?;
         Ok(Self {
+            diagnosis: Diagnosis::new(&p.diagnosis, sensing.units()),
             sensing,
             command: Command::new(p.command_timeout_ticks),
             motion: Motion::new(p, &machine, dig, followers)?,
@@ -68,6 +73,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
             valve: Valve::new(&p.valves, &p.coil),
             tick: 0,
+            freeze_frame: None,
             lengths: NO_LENGTHS,
             pose: NO_POSE,
         })
@@ -78,14 +84,24 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         self.supervisor.self_tested(report);
     }
 
+    /// What was known at the first latched fault.
+    pub fn freeze_frame(&self) -> Option<&FreezeFrame> {
+        self.freeze_frame.as_ref()
+    }
+
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let supply_v = self.sensing.supply_v(inputs);
         let intent = self.command.read(inputs);
+        self.diagnosis.judge(&inputs.codes, &NO_PRESSURES);
 
         let wanted = self.sense_and_follow(inputs, &intent);
-        let watched = Watched { intent, supply_v, stage_fault: wanted.err(), moving: false };
+        let watched = Watched { intent, supply_v, stage_fault: wanted.err(), moving: self.diagnosis.moving() };
+        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
         let gate = self.supervisor.judge(inputs, &watched);
+        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
+            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
+        }
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
         let nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
@@ -96,6 +112,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         if let Some(fence) = &mut self.fence {
             fence.sent(&fenced.speeds);
         }
+        self.diagnosis.sent(&fenced.speeds);
         let coils = self.valve.drive(gate, &fenced.speeds, supply_v);
         let outputs = Outputs {
             tick: self.tick,
@@ -118,12 +135,33 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         outputs
     }
 
-    /// Sensing → pose → motion → fence; the first stage at fault ends it.
+    // Not inlined: it is for faults.
+    #[inline(never)]
+    fn freeze(&self, inputs: &Inputs, watched: &Watched, state: State, fault: Fault) -> FreezeFrame {
+        FreezeFrame {
+            tick: self.tick,
+            fault,
+            state,
+            codes: inputs.codes,
+            lengths: self.lengths,
+            speeds: self.diagnosis.speeds(),
+            supply_v: watched.supply_v,
+            request: watched.intent.request,
+            sent: self.diagnosis.last_sent(),
+        }
+    }
+
+    /// Sensing → diagnosis → pose → motion → fence; the first stage at fault ends it.
     fn sense_and_follow(&mut self, inputs: &Inputs, intent: &Intent) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
+            let suspected = self.diagnosis.fault();
+            if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
+                return Err(fault);
+            }
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
+            suspected.map_or(Ok(()), Err)?;
             let wanted = self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)?;
             let fenced = match &mut self.fence {
                 Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,

@@ -21,8 +21,7 @@ pub enum State {
 
 impl State {
     /// Every state, in the order of the codes.
-    pub const ALL: [Self; 6] =
-        [Self::Locked, Self::Ready, Self::Running, Self::Fault, Self::SelfTest, Self::Stopped];
+    pub const ALL: [Self; 6] = [Self::Locked, Self::Ready, Self::Running, Self::Fault, Self::SelfTest, Self::Stopped];
 
     /// As a byte.
     pub const fn code(self) -> u8 {

@@ -4,7 +4,7 @@
 //! pipeline; each stage has a configuration built once from [`Parameters`] and a small state, and hands on one value:
 //!
 //! ```text
-//! Inputs → sensing → pose → command → motion → fence → valve → Outputs
+//! Inputs → sensing → diagnosis → pose → command → motion → fence → valve → Outputs
 //!              the supervisor watches every stage and alone opens the gate between fence and valve
 //! ```
 //!
@@ -16,11 +16,13 @@ pub mod board;
 pub mod calibration;
 pub mod can;
 pub mod command;
+pub mod diagnosis;
 pub mod dig;
 mod ecu;
 pub mod fault;
 pub mod fence;
 pub mod frame;
+mod freeze_frame;
 pub mod io;
 pub mod link;
 pub mod motion;
@@ -36,6 +38,7 @@ pub mod valve;
 
 pub use ecu::Ecu;
 pub use fault::{Fault, State};
+pub use freeze_frame::FreezeFrame;
 pub use io::{Inputs, Outputs, Request};
 pub use motion::Followers;
 pub use parameters::{ParameterError, Parameters};

@@ -9,6 +9,7 @@ use kinematics_core::planning::reach::Target;
 use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
+use crate::diagnosis::DiagnosisParameters;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
@@ -100,6 +101,8 @@ pub struct Parameters {
     pub supply: Supply,
     /// Ticks without a new command after which it is stale.
     pub command_timeout_ticks: u16,
+    /// What a healthy machine is like.
+    pub diagnosis: DiagnosisParameters,
     /// Motion.
     pub motion: MotionParameters,
     /// The dig, where there is one.
@@ -246,6 +249,7 @@ impl Parameters {
         within("supply.max_v", self.supply.max_v.into(), [6.0, 60.0])?;
         ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
         within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
+        self.diagnosis.validate()?;
         self.motion.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;

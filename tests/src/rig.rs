@@ -42,6 +42,7 @@ pub struct Rig {
     pub inputs: Inputs,
     /// Messages arrive.
     pub sending: bool,
+    ticked: u16,
 }
 
 impl Rig {
@@ -78,6 +79,7 @@ impl Rig {
                 overrun: false,
             },
             sending: true,
+            ticked: 0,
         };
         rig.stand_at(parameters, &Cylinders { boom, arm, bucket });
         rig
@@ -96,10 +98,18 @@ impl Rig {
         if self.sending {
             self.inputs.command_counter = self.inputs.command_counter.wrapping_add(1);
         }
-        let outputs = self.ecu.tick(&self.inputs);
+        let inputs = self.with_noise();
+        let outputs = self.ecu.tick(&inputs);
         // The relay's contact follows.
         self.inputs.cut_off_closed = outputs.cut_off_closed;
         outputs
+    }
+
+    /// A living sensor is never quite still; a broken wire is.
+    fn with_noise(&mut self) -> Inputs {
+        self.ticked = self.ticked.wrapping_add(1);
+        let noise = |code: u16| if (500..65_000).contains(&code) { code + self.ticked % 5 } else { code };
+        Inputs { codes: self.inputs.codes.map(noise), ..self.inputs }
     }
 
     /// Several ticks; gives the last outputs.

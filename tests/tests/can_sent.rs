@@ -174,7 +174,8 @@ fn all_faults_are_told_in_packets_fifty_ticks_apart_most_urgent_first() {
     let frames = bench.ticks(1990);
     let told = dm1s(&frames);
     assert_eq!(told.iter().map(|(at, _)| *at).collect::<Vec<_>>(), [0, 1000]);
-    let expected: Vec<_> = Fault::ALL.into_iter().take(31).map(|f| (f.trouble_code().spn, f.trouble_code().fmi, 1)).collect();
+    let expected: Vec<_> =
+        Fault::ALL.into_iter().take(31).map(|f| (f.trouble_code().spn, f.trouble_code().fmi, 1)).collect();
     for (_, bytes) in &told {
         assert_eq!(decoded(bytes), (0b01_0100, expected.clone()));
     }

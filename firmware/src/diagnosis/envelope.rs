@@ -2,7 +2,7 @@
 //!
 //! Dead time lies between none and the longest, so speed may be anything between the lowest and the highest command of that time. After
 //! the highest it may fall off in a straight line over the run-on, and a released speed may ring back by its share. The speed it must
-//! have is the command nearest to zero of that time, behind the slowest spool.
+//! have is the command nearest to zero of that time, less what may still run on the other way, behind the slowest spool.
 
 use super::ROUND_S;
 use super::parameters::DiagnosisParameters;
@@ -18,8 +18,8 @@ pub(super) struct Model {
     ring: f32,
     /// By how much less a speed bounces back than rings back.
     calmer: f32,
-    /// Rounds of the longest dead time.
-    pub(super) dead_rounds: u8,
+    /// Rounds of a span: three cover the longest dead time.
+    pub(super) span_rounds: u8,
 }
 
 impl Model {
@@ -32,8 +32,8 @@ impl Model {
             over: 1.0 + p.overshoot,
             ring: p.ring,
             calmer: p.ring - p.rebound,
-            // The cast saturates; at most 250.
-            dead_rounds: (p.latest_start_s / ROUND_S) as u8,
+            // The cast saturates.
+            span_rounds: (p.latest_start_s / (3.0 * ROUND_S) + 0.999) as u8,
         }
     }
 }
@@ -64,6 +64,17 @@ struct Span {
     high: f32,
 }
 
+impl Span {
+    /// Of both.
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self {
+            low: if other.low < self.low { other.low } else { self.low },
+            high: if other.high > self.high { other.high } else { self.high },
+        }
+    }
+}
+
 /// What the model says now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected {
@@ -78,42 +89,43 @@ pub(super) struct Expected {
 /// One actuator's model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Envelope {
-    /// Since the last of the moments that lie the dead time apart, and from the one before to it.
-    spans: [Span; 2],
+    /// The span under way, and the two before it: the last first.
+    now: Span,
+    past: [Span; 2],
+    /// The three before it together.
+    before: Span,
     out: RunOn,
     back: RunOn,
     sure: f32,
 }
 
 impl Envelope {
-    /// One round under this command; `turned` once every dead time.
+    /// One round under this command; `turned` at the end of every span.
     #[inline(always)]
     pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> Expected {
-        let [now, before] = &mut self.spans;
-        if command < now.low {
-            now.low = command;
-        }
-        if command > now.high {
-            now.high = command;
-        }
-        let low = if before.low < now.low { before.low } else { now.low };
-        let high = if before.high > now.high { before.high } else { now.high };
+        let command_now = Span { low: command, high: command };
+        self.now = self.now.and(command_now);
+        let Span { low, high } = self.now.and(self.before);
         if turned {
-            (*before, *now) = (*now, Span { low: command, high: command });
+            let [last, one_before] = self.past;
+            self.past = [self.now, last];
+            self.before = self.now.and(last).and(one_before);
+            self.now = command_now;
         }
         self.out.follow(high, model.run_on_share);
         self.back.follow(-low, model.run_on_share);
-        let must = if low > 0.0 {
-            low
-        } else if high < 0.0 {
-            high
+        let (out, back) = (self.out.level, self.back.level);
+        // What may still run on the other way is owed.
+        let must = if low > back {
+            low - back
+        } else if high < -out {
+            high + out
         } else {
             // Released or reversed: the past promises nothing.
             self.sure = 0.0;
             0.0
         };
         self.sure += (must - self.sure) * model.lag_share;
-        let (out, back) = (self.out.level, self.back.level);
         let bounce = model.calmer * command;
         let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
         Expected {

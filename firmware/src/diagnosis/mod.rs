@@ -50,7 +50,7 @@ pub struct Diagnosis {
     free_pa: [f32; 2],
     /// Ticks of this round.
     tick: u8,
-    /// Rounds until the model's windows turn.
+    /// Rounds until the span of commands under way ends.
     until_turn: u8,
     /// Codes have come.
     begun: bool,
@@ -68,7 +68,7 @@ impl Diagnosis {
             sent: [0.0; 4],
             free_pa: [p.supplied_pa, p.stalled_pa],
             tick: 0,
-            until_turn: model.dead_rounds,
+            until_turn: model.span_rounds,
             begun: false,
         }
     }
@@ -91,13 +91,18 @@ impl Diagnosis {
         self.tick += 1;
         if self.tick == ROUND_TICKS {
             self.tick = 0;
-            self.until_turn = if turned { self.model.dead_rounds } else { self.until_turn - 1 };
+            self.until_turn = if turned { self.model.span_rounds } else { self.until_turn }.saturating_sub(1);
         }
     }
 
     /// What went to the valves in this tick.
     pub fn sent(&mut self, speeds: &Speeds) {
         self.sent = speeds.to_array();
+    }
+
+    /// What went to the valves in the tick before.
+    pub fn last_sent(&self) -> Speeds {
+        Speeds::from_array(self.sent)
     }
 
     /// The most urgent fault, of the first actuator that has one.

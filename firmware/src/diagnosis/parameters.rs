@@ -19,6 +19,27 @@ pub struct ActuatorLimits {
     pub stuck_travel: f32,
 }
 
+impl ActuatorLimits {
+    /// With these full speeds (extend, retract) and a sensor of this noise; a noisier one is given wider limits.
+    pub fn new(full_speed: [f32; 2], noise: f32) -> Self {
+        let least = |limit: f32, noises: f32| if noises * noise > limit { noises * noise } else { limit };
+        Self {
+            full_speed,
+            noise,
+            jump: least(0.002, 20.0),
+            // The measured speed's standard deviation is 26 times the noise's a second.
+            speed_margin: least(0.03, 300.0),
+            stuck_travel: least(0.005, 50.0),
+        }
+    }
+
+    /// The same with a sensor of this noise.
+    #[must_use]
+    pub fn with_noise(self, noise: f32) -> Self {
+        Self::new(self.full_speed, noise)
+    }
+}
+
 /// The diagnosis stage's parameters. A healthy machine stays inside them: it starts up to `latest_start_s` after a command, follows it
 /// with the lag `spool_lag_s`, rings, and comes to rest up to `run_on_s` after the release.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,16 +67,8 @@ pub struct DiagnosisParameters {
 impl DiagnosisParameters {
     /// Of a machine with these full speeds (swing, boom, arm, bucket: extend, retract) and no other calibration.
     pub fn of_full_speeds(full_speeds: [[f32; 2]; 4]) -> Self {
-        let limits = |full_speed| ActuatorLimits {
-            full_speed,
-            noise: 0.0001,
-            jump: 0.002,
-            // Eleven standard deviations of the measured speed.
-            speed_margin: 0.03,
-            stuck_travel: 0.005,
-        };
         Self {
-            actuators: full_speeds.map(limits),
+            actuators: full_speeds.map(|full_speed| ActuatorLimits::new(full_speed, 0.0001)),
             latest_start_s: 0.25,
             spool_lag_s: 0.1,
             run_on_s: 2.0,
@@ -78,9 +91,13 @@ impl DiagnosisParameters {
             }
             within("diagnosis.noise", actuator.noise.into(), [0.0, 0.01])?;
             // Closer, and noise would trip it.
-            within("diagnosis.jump", actuator.jump.into(), [10.0 * f64::from(actuator.noise) + 1e-6, 0.1])?;
-            within("diagnosis.speed_margin", actuator.speed_margin.into(), [200.0 * f64::from(actuator.noise), 1.0])?;
-            within("diagnosis.stuck_travel", actuator.stuck_travel.into(), [50.0 * f64::from(actuator.noise), 0.1])?;
+            within("diagnosis.jump", actuator.jump.into(), [10.0 * f64::from(actuator.noise) + 1e-6, 0.5])?;
+            within("diagnosis.speed_margin", actuator.speed_margin.into(), [200.0 * f64::from(actuator.noise), 5.0])?;
+            within(
+                "diagnosis.stuck_travel",
+                actuator.stuck_travel.into(),
+                [49.0 * f64::from(actuator.noise) + 1e-6, 0.5],
+            )?;
         }
         within("diagnosis.latest_start_s", self.latest_start_s.into(), [0.02, 1.0])?;
         within("diagnosis.spool_lag_s", self.spool_lag_s.into(), [0.01, 1.0])?;

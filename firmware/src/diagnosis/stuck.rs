@@ -43,11 +43,11 @@ impl Stuck {
         let ahead = sure * ROUND_S;
         if before == code {
             self.quiet = self.quiet.saturating_add(1);
-            self.quiet_travel += ahead;
+            self.quiet_travel += if ahead > 0.0 { ahead } else { -ahead };
         } else {
             (self.quiet, self.quiet_travel) = (0, 0.0);
         }
-        let silent = limits.noisy && self.quiet >= QUIET_ROUNDS && far(self.quiet_travel, limits.travel);
+        let silent = limits.noisy && self.quiet >= QUIET_ROUNDS && self.quiet_travel >= limits.travel;
         let moved = f32::from(code.wrapping_sub(self.from).cast_signed()) * unit;
         // A fifth of the travel is movement, well above noise.
         if !far(sure, limits.creep) || far(5.0 * moved, limits.travel) {

@@ -1,6 +1,7 @@
 //! From a checked file to what a run needs: the controller's parameters and the plant.
 
 use firmware::Parameters;
+use firmware::diagnosis::DiagnosisParameters;
 use firmware::dig::DigParameters;
 use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{
@@ -156,6 +157,16 @@ fn actuators(p: &file::Plant, machine: &Machine<f64>, geometry: &PinGeometry) ->
     ])
 }
 
+/// What is healthy of these valves, and of sensors with the plant's noise.
+fn diagnosis(valves: &[[ValveDirection; 2]; 4], plant: &file::Plant) -> DiagnosisParameters {
+    let mut diagnosis =
+        DiagnosisParameters::of_full_speeds(valves.map(|spool| spool.map(|direction| direction.full_speed)));
+    for actuator in &mut diagnosis.actuators {
+        *actuator = actuator.with_noise(plant.sensor_noise_m as f32);
+    }
+    diagnosis
+}
+
 /// The start's lengths lie within the strokes.
 fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
     let range = |stroke: Stroke| [stroke.min_m, stroke.max_m];
@@ -193,6 +204,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         coil: Coil { full_scale_a: p.coil_full_scale_a as f32, resistance_ohm: p.coil_resistance_ohm as f32 },
         supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
         command_timeout_ticks: COMMAND_TIMEOUT_TICKS,
+        diagnosis: diagnosis(&valves, p),
         motion: MotionParameters {
             preview_s: m.preview_s as f32,
             gain_per_s: m.gain_per_s as f32,
