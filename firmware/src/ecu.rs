@@ -4,8 +4,8 @@ use core::borrow::BorrowMut;
 
 use kinematics_core::{Cylinders, Machine, Pose};
 
-use crate::command::{Command, Intent};
-use crate::diagnosis::{Diagnosis, NO_PRESSURES};
+use crate::command::Intent;
+use crate::diagnosis::Diagnosis;
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
 use crate::fence::{Fence, Fenced, NO_CLEARANCE};
@@ -17,7 +17,8 @@ use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
 use crate::travel::first_violation;
-use crate::valve::Valve;
+use crate::valve::coil_fault::FaultyCoil;
+use crate::valve::coil_stage::CoilStage;
 
 /// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
 /// in an image, by reference.
@@ -26,11 +27,12 @@ pub struct Ecu<F = Followers> {
     machine: Machine<f32>,
     sensing: Sensing,
     diagnosis: Diagnosis,
-    command: Command,
     motion: Motion<F>,
     fence: Option<Fence>,
     supervisor: Supervisor,
-    valve: Valve,
+    valve: CoilStage,
+    /// What the coils' currents showed in the last tick.
+    coil_fault: Option<FaultyCoil>,
     tick: u32,
     freeze_frame: Option<FreezeFrame>,
     lengths: Cylinders<f32>,
@@ -56,22 +58,23 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let p = parameters;
         p.validate()?;
         let machine = Machine::new(&p.geometry)?;
-        let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, p.supply.full_scale_v, &machine)
+        let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, [&p.supply, &p.sensor_supply], &machine)
             .ok_or(ParameterError::NoSwingCylinder)?;
         let dig = p.dig.as_ref().map(Dig::new);
         if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));
         }
-        let fence = p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.valves)).transpose()?;
+        let fence =
+            p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.coils.valves())).transpose()?;
         Ok(Self {
             diagnosis: Diagnosis::new(&p.diagnosis, sensing.units()),
             sensing,
-            command: Command::new(p.command_timeout_ticks),
             motion: Motion::new(p, &machine, dig, followers)?,
             fence,
             machine,
-            supervisor: Supervisor::new([p.supply.min_v, p.supply.max_v]),
-            valve: Valve::new(&p.valves, &p.coil),
+            supervisor: Supervisor::new(&p.supply, &p.sensor_supply),
+            valve: CoilStage::new(&p.coils)?,
+            coil_fault: None,
             tick: 0,
             freeze_frame: None,
             lengths: NO_LENGTHS,
@@ -92,11 +95,12 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let supply_v = self.sensing.supply_v(inputs);
-        let intent = self.command.read(inputs);
-        self.diagnosis.judge(&inputs.codes, &NO_PRESSURES);
+        let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
+        self.diagnosis.judge(&inputs.codes, &inputs.pressures_pa);
 
-        let wanted = self.sense_and_follow(inputs, &intent);
-        let watched = Watched { intent, supply_v, stage_fault: wanted.err(), moving: self.diagnosis.moving() };
+        let wanted = self.sense_and_follow(inputs);
+        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.err(), moving };
         let (state, known) = (self.supervisor.state(), self.supervisor.fault());
         let gate = self.supervisor.judge(inputs, &watched);
         if let (None, Some(fault)) = (known, self.supervisor.fault()) {
@@ -113,7 +117,8 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             fence.sent(&fenced.speeds);
         }
         self.diagnosis.sent(&fenced.speeds);
-        let coils = self.valve.drive(gate, &fenced.speeds, supply_v);
+        let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
+        self.coil_fault = driven.fault;
         let outputs = Outputs {
             tick: self.tick,
             state: self.supervisor.state(),
@@ -128,8 +133,8 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             asked: wanted.speeds,
             clearance_m: fenced.clearance_m,
             speeds: fenced.speeds,
-            currents: coils.currents,
-            duties: coils.duties,
+            currents: driven.coils.currents,
+            duties: driven.coils.duties,
         };
         self.tick = self.tick.wrapping_add(1);
         outputs
@@ -146,14 +151,16 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             lengths: self.lengths,
             speeds: self.diagnosis.speeds(),
             supply_v: watched.supply_v,
-            request: watched.intent.request,
+            command: inputs.command,
             sent: self.diagnosis.last_sent(),
         }
     }
 
     /// Sensing → diagnosis → pose → motion → fence; the first stage at fault ends it.
-    fn sense_and_follow(&mut self, inputs: &Inputs, intent: &Intent) -> Result<(Wanted, Fenced), Fault> {
+    fn sense_and_follow(&mut self, inputs: &Inputs) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
+        // Without a fresh command nothing is wanted, and the supervisor stops what runs.
+        let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let suspected = self.diagnosis.fault();
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
@@ -162,7 +169,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
             suspected.map_or(Ok(()), Err)?;
-            let wanted = self.motion.follow(&self.machine, running, intent, &pose, &sensed.lengths)?;
+            let wanted = self.motion.follow(&self.machine, running, &intent, &pose, &sensed.lengths)?;
             let fenced = match &mut self.fence {
                 Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },

@@ -2,6 +2,8 @@
 
 use kinematics_core::Cylinder;
 
+use crate::valve::coil_fault::{CoilFault, FaultyCoil};
+
 /// The supervisor's state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
@@ -63,6 +65,10 @@ pub enum Fault {
     CoilConverter,
     /// The supply voltage left its range.
     Supply,
+    /// A coil, its driver or its wires.
+    Coil(FaultyCoil),
+    /// The position sensors' supply left its range.
+    SensorSupply,
     /// A position sensor's code left its range.
     Sensor(Cylinder),
     /// The lengths give no pose: a linkage does not close.
@@ -100,8 +106,8 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Every fault, most urgent first.
-    pub const ALL: [Self; 39] = [
+    /// Every fault of no coil, most urgent first.
+    const PLAIN: [Self; 40] = [
         Self::Overrun,
         Self::CutOffWelded,
         Self::ParametersCorrupt,
@@ -114,6 +120,7 @@ impl Fault {
         Self::SensorConverter,
         Self::CoilConverter,
         Self::Supply,
+        Self::SensorSupply,
         Self::Sensor(Cylinder::Swing),
         Self::Sensor(Cylinder::Boom),
         Self::Sensor(Cylinder::Arm),
@@ -143,6 +150,19 @@ impl Fault {
         Self::LateTick,
     ];
 
+    /// Every fault: those of no coil, most urgent first, then those of the coils.
+    pub const ALL: [Self; Self::PLAIN.len() + FaultyCoil::ALL.len()] = {
+        let mut all = [Self::EmergencyStop; Self::PLAIN.len() + FaultyCoil::ALL.len()];
+        let mut at = 0;
+        while at < all.len() {
+            all[at] = match at.checked_sub(Self::PLAIN.len()) {
+                None => Self::PLAIN[at],
+                Some(coil) => Self::Coil(FaultyCoil::ALL[coil]),
+            };
+            at += 1;
+        }
+        all
+    };
     /// Whether only a restart clears it: memory, scheduling or the cut-off itself cannot be trusted any more.
     pub const fn needs_restart(self) -> bool {
         matches!(
@@ -154,6 +174,7 @@ impl Fault {
                 | Self::ConverterSetUp
                 | Self::OutputDrivers
                 | Self::CutOffUnproven
+                | Self::Coil(FaultyCoil { fault: CoilFault::Cross, .. })
         )
     }
 
@@ -204,6 +225,8 @@ impl Fault {
             Self::Against(Cylinder::Boom) => 37,
             Self::Against(Cylinder::Arm) => 38,
             Self::Against(Cylinder::Bucket) => 39,
+            Self::SensorSupply => 63,
+            Self::Coil(coil) => coil.code(),
         }
     }
 
@@ -229,6 +252,8 @@ impl Fault {
             Self::CutOffStuckOpen => "cut_off_stuck_open",
             Self::SensorConverter => "sensor_converter_unsound",
             Self::CoilConverter => "coil_converter_unsound",
+            Self::SensorSupply => "sensor_supply_out_of_range",
+            Self::Coil(coil) => coil.name(),
             Self::NotAtStart => "not_at_start",
             Self::FollowingError => "following_error",
             Self::Trajectory => "trajectory_unreachable",

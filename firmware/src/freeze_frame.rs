@@ -2,8 +2,9 @@
 
 use kinematics_core::Cylinders;
 
+use crate::command::Intent;
 use crate::fault::{Fault, State};
-use crate::io::{Request, Speeds};
+use crate::io::Speeds;
 
 /// Kept from the first fault until the first fault after running has begun afresh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +23,8 @@ pub struct FreezeFrame {
     pub speeds: Speeds,
     /// Supply voltage, V.
     pub supply_v: f32,
-    /// What the operator asked for.
-    pub request: Request,
+    /// What the operator asked for, where it was fresh.
+    pub command: Option<Intent>,
     /// Speeds last sent to the valves.
     pub sent: Speeds,
 }

@@ -2,6 +2,8 @@
 
 use kinematics_core::{Cylinders, Pose, Rotor};
 
+use crate::can::command::Slope;
+use crate::command::Intent;
 use crate::fault::{Fault, State};
 
 /// The four spools and their position sensors, in the order of every array here.
@@ -52,21 +54,25 @@ impl Speeds {
 }
 
 /// Everything that enters a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
     /// Position sensors' ADC codes: swing, boom, arm, bucket.
     pub codes: [u16; 4],
-    /// Supply voltage's ADC code.
+    /// ADC code of the battery voltage.
     pub supply_code: u16,
-    /// The operator's command counts up with every message, so that a frozen sender shows.
-    pub command_counter: u8,
-    /// What the operator asks for.
-    pub request: Request,
-    /// The levers, read with [`Request::Levers`]: swing, boom, arm, bucket; ±32767 asks for full speed, extending positive.
-    pub levers: [i16; 4],
-    /// Whether each converter answered soundly: that of the position sensors and the supply, that of the coil currents. The codes of one
-    /// that did not mean nothing.
+    /// ADC code of the position sensors' supply.
+    pub sensor_supply_code: u16,
+    /// ADC codes of the coil currents, a spool each.
+    pub coil_codes: [Solenoids<u16>; 4],
+    /// Whether each converter answered soundly: that of the position sensors and the supplies, that of the coil currents. The codes of
+    /// one that did not mean nothing.
     pub converters_sound: [bool; 2],
+    /// What the operator asks for; `None` without a fresh command.
+    pub command: Option<Intent>,
+    /// How the chassis stands; `None` while unknown.
+    pub slope: Option<Slope>,
+    /// Pressures above ambient of boom, arm and bucket cylinder, \[head, rod\], Pa; each `None` while unknown.
+    pub pressures_pa: [[Option<f32>; 2]; 3],
     /// The master cut-off's own contact is closed.
     pub cut_off_closed: bool,
     /// The enable switch.

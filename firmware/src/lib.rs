@@ -4,7 +4,7 @@
 //! pipeline; each stage has a configuration built once from [`Parameters`] and a small state, and hands on one value:
 //!
 //! ```text
-//! Inputs → sensing → diagnosis → pose → command → motion → fence → valve → Outputs
+//! Inputs → sensing → diagnosis → pose → motion → fence → valve → Outputs
 //!              the supervisor watches every stage and alone opens the gate between fence and valve
 //! ```
 //!
@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod board;
+mod bytes;
 pub mod calibration;
 pub mod can;
 pub mod command;
@@ -24,18 +25,20 @@ pub mod fence;
 pub mod frame;
 mod freeze_frame;
 pub mod io;
-pub mod link;
 pub mod motion;
 pub mod moves;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;
+#[cfg(feature = "simulated")]
+pub mod simulated;
 pub mod store;
 pub mod supervisor;
 pub mod travel;
 pub mod trouble;
 pub mod valve;
 
+pub use command::Intent;
 pub use ecu::Ecu;
 pub use fault::{Fault, State};
 pub use freeze_frame::FreezeFrame;

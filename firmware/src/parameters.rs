@@ -14,6 +14,7 @@ use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
 use crate::travel::Violation;
+use crate::valve::coil_stage::CoilStageParameters;
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +59,7 @@ pub struct Coil {
     pub resistance_ohm: f32,
 }
 
-/// Supply measurement and limits.
+/// A supply's measurement and limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Supply {
     /// Voltage at code 65535, V.
@@ -93,14 +94,12 @@ pub struct Parameters {
     pub swing_sensor: SwingSensor,
     /// Boom, arm, bucket.
     pub cylinder_sensors: [PositionSensor; 3],
-    /// Swing, boom, arm, bucket: \[extend, retract\]; of a swing motor \[counter-clockwise, clockwise\].
-    pub valves: [[ValveDirection; 2]; 4],
-    /// Solenoids.
-    pub coil: Coil,
-    /// Supply.
+    /// Valves and their solenoids; of a swing motor \[counter-clockwise, clockwise\].
+    pub coils: CoilStageParameters,
+    /// Battery.
     pub supply: Supply,
-    /// Ticks without a new command after which it is stale.
-    pub command_timeout_ticks: u16,
+    /// Supply of the position sensors.
+    pub sensor_supply: Supply,
     /// What a healthy machine is like.
     pub diagnosis: DiagnosisParameters,
     /// Motion.
@@ -238,23 +237,29 @@ impl Parameters {
         if let (SwingSensor::Cylinder(sensor), Some(swing)) = (&self.swing_sensor, &g.swing) {
             sensor.spans(swing.stroke)?;
         }
-        for direction in self.valves.iter().flatten() {
-            within("valve.dead_band", direction.dead_band.into(), [0.0, 0.9])?;
-            within("valve.full_speed", direction.full_speed.into(), [0.001, 5.0])?;
-        }
-        within("coil.full_scale_a", self.coil.full_scale_a.into(), [0.05, 5.0])?;
-        within("coil.resistance_ohm", self.coil.resistance_ohm.into(), [0.5, 100.0])?;
-        within("supply.full_scale_v", self.supply.full_scale_v.into(), [10.0, 100.0])?;
-        within("supply.min_v", self.supply.min_v.into(), [6.0, 60.0])?;
-        within("supply.max_v", self.supply.max_v.into(), [6.0, 60.0])?;
-        ordered(("supply.min_v", self.supply.min_v.into()), ("supply.max_v", self.supply.max_v.into()))?;
-        within("command_timeout_ticks", self.command_timeout_ticks.into(), [1.0, 1000.0])?;
+        self.coils.validate()?;
+        let [full_scale, min, max] = ["supply.full_scale_v", "supply.min_v", "supply.max_v"];
+        self.supply.validate([(full_scale, [10.0, 100.0]), (min, [6.0, 60.0]), (max, [6.0, 60.0])])?;
+        let [full_scale, min, max] = ["sensor_supply.full_scale_v", "sensor_supply.min_v", "sensor_supply.max_v"];
+        self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
         self.diagnosis.validate()?;
         self.motion.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
         self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
         self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)
+    }
+}
+
+impl Supply {
+    /// Each value by its name and range: full scale, lowest, highest.
+    fn validate(&self, [full_scale, min, max]: [(&'static str, [f64; 2]); 3]) -> Result<(), ParameterError> {
+        within(full_scale.0, self.full_scale_v.into(), full_scale.1)?;
+        within(min.0, self.min_v.into(), min.1)?;
+        within(max.0, self.max_v.into(), max.1)?;
+        ordered((min.0, self.min_v.into()), (max.0, self.max_v.into()))?;
+        // What the converter cannot say could never be seen to be too high.
+        ordered((max.0, self.max_v.into()), (full_scale.0, self.full_scale_v.into()))
     }
 }
 

@@ -4,7 +4,7 @@ use kinematics_core::swing::SwingCylinder;
 use kinematics_core::{Cylinder, Cylinders, Machine, Rotor};
 
 use crate::io::{Inputs, limited};
-use crate::parameters::{PositionSensor, SwingSensor};
+use crate::parameters::{PositionSensor, Supply, SwingSensor};
 
 /// One cylinder's sensor: the stroke lies linearly between two codes.
 #[derive(Clone, Copy, Debug)]
@@ -62,13 +62,14 @@ pub struct Sensing {
     swing: SwingScale,
     cylinders: [Scale; 3],
     volts_per_code: f32,
+    sensor_volts_per_code: f32,
 }
 
 impl Sensing {
     pub(crate) fn new(
         swing: &SwingSensor,
         cylinders: &[PositionSensor; 3],
-        supply_full_scale_v: f32,
+        [supply, sensor_supply]: [&Supply; 2],
         machine: &Machine<f32>,
     ) -> Option<Self> {
         let swing = match swing {
@@ -81,7 +82,8 @@ impl Sensing {
         Some(Self {
             swing,
             cylinders: [Scale::new(boom), Scale::new(arm), Scale::new(bucket)],
-            volts_per_code: supply_full_scale_v / 65535.0,
+            volts_per_code: supply.full_scale_v / 65535.0,
+            sensor_volts_per_code: sensor_supply.full_scale_v / 65535.0,
         })
     }
 
@@ -98,6 +100,11 @@ impl Sensing {
     /// Supply voltage, V: valid whatever the other sensors say.
     pub fn supply_v(&self, inputs: &Inputs) -> f32 {
         f32::from(inputs.supply_code) * self.volts_per_code
+    }
+
+    /// Voltage of the position sensors' supply, V.
+    pub fn sensor_supply_v(&self, inputs: &Inputs) -> f32 {
+        f32::from(inputs.sensor_supply_code) * self.sensor_volts_per_code
     }
 
     /// All sensors, or the first whose code is outside its range: no sensor's good value makes up for another's.

@@ -3,6 +3,7 @@
 use kinematics_core::Cylinder;
 
 use crate::fault::Fault;
+use crate::valve::coil_fault::CoilFault;
 
 /// The lamp a fault lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +30,14 @@ pub const FIRST_SPN: u32 = 520_192;
 
 /// Data erratic, intermittent or incorrect.
 const ERRATIC: u8 = 2;
+/// Voltage above normal, or shorted to high source.
+const SHORTED_HIGH: u8 = 3;
+/// Voltage below normal, or shorted to low source.
+const SHORTED_LOW: u8 = 4;
+/// Current below normal or open circuit.
+const OPEN: u8 = 5;
+/// Current above normal or grounded circuit.
+const OVER_CURRENT: u8 = 6;
 /// Mechanical system not responding or out of adjustment.
 const NOT_RESPONDING: u8 = 7;
 /// Abnormal update rate.
@@ -39,6 +48,10 @@ const ABNORMAL_RATE: u8 = 10;
 const BAD_DEVICE: u8 = 12;
 /// Out of calibration.
 const NOT_CALIBRATED: u8 = 13;
+/// Special instructions: both solenoids of a spool are on.
+const CROSS: u8 = 14;
+/// Data valid but below normal operating range, moderately severe.
+const TOO_LITTLE: u8 = 18;
 /// Condition exists.
 const EXISTS: u8 = 31;
 
@@ -46,8 +59,19 @@ const fn stop(number: u32, fmi: u8) -> TroubleCode {
     TroubleCode { spn: FIRST_SPN + number, fmi, lamp: Lamp::RedStop }
 }
 
+const fn failure_mode(fault: CoilFault) -> u8 {
+    match fault {
+        CoilFault::ShortToGround => SHORTED_LOW,
+        CoilFault::ShortToSupply => SHORTED_HIGH,
+        CoilFault::Cross => CROSS,
+        CoilFault::OverCurrent => OVER_CURRENT,
+        CoilFault::Open => OPEN,
+        CoilFault::Saturated => TOO_LITTLE,
+    }
+}
+
 impl Fault {
-    /// Its trouble code. A number once given is never given to another.
+    /// Its trouble code. A number once given is never given to another cause.
     pub const fn trouble_code(self) -> TroubleCode {
         match self {
             Self::EmergencyStop => stop(0, EXISTS),
@@ -89,6 +113,9 @@ impl Fault {
             Self::Against(Cylinder::Boom) => stop(36, NOT_RESPONDING),
             Self::Against(Cylinder::Arm) => stop(37, NOT_RESPONDING),
             Self::Against(Cylinder::Bucket) => stop(38, NOT_RESPONDING),
+            Self::SensorSupply => stop(63, ERRATIC),
+            // A number a coil; the identifier says what is wrong with it.
+            Self::Coil(coil) => stop(64 + coil.coil(), failure_mode(coil.fault)),
         }
     }
 }

@@ -52,6 +52,8 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
     Icd(icd::IcdArgs),
+    /// Draw the supervisor and write the page of faults from the firmware's tables, or check that they are up to date
+    Supervisor(icd::IcdArgs),
 }
 
 /// Writes to standard output. A reader that has gone away has had what it wanted.
@@ -89,6 +91,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
+        Ok(Hil { command: Command::Supervisor(args) }) => icd::supervisor(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

@@ -14,6 +14,7 @@
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
+//! - [`supervisor_page`] — the supervisor drawn, and the page of faults;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
@@ -34,5 +35,6 @@ pub mod report;
 pub mod run;
 pub mod scenario;
 pub mod scenes;
+pub mod supervisor_page;
 mod toml_text;
 pub mod travel;

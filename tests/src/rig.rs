@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use firmware::{Ecu, Inputs, Outputs, Parameters, Request, SelfTest, State};
-use hil_sim::plant::sensors::code;
+use firmware::io::Solenoids;
+use firmware::{Ecu, Inputs, Intent, Outputs, Parameters, Request, SelfTest, State};
+use hil_sim::coil_trial::REFERENCE;
+use hil_sim::plant::STEP_S;
+use hil_sim::plant::coil::{CurrentAdc, Drive, Solenoid};
+use hil_sim::plant::sensors::{Noise, code};
 use hil_sim::scenario::Scenario;
 use kinematics_core::{Cylinders, Machine};
 
@@ -38,12 +42,26 @@ pub fn scenario_names() -> Vec<String> {
 pub struct Rig {
     /// The controller.
     pub ecu: Ecu,
-    /// What the next tick reads; the command counter counts by itself while `sending`.
+    /// What the next tick reads; command, coil currents and the cut-off's contact are put in by [`Rig::tick`].
     pub inputs: Inputs,
-    /// Messages arrive.
+    /// What the operator asks for.
+    pub request: Request,
+    /// The levers.
+    pub levers: [i16; 4],
+    /// The operator's messages are fresh.
     pub sending: bool,
+    /// The solenoids.
+    pub solenoids: [Solenoids<Solenoid>; 4],
+    adc: CurrentAdc,
+    /// The sensors have noise.
+    pub noisy: bool,
     ticked: u16,
 }
+
+/// Supply of the rig, V.
+const SUPPLY_V: f64 = 24.0;
+/// Its code, and that of the sensors' 10 V.
+const SUPPLY_CODES: [u16; 2] = [39321, 63999];
 
 impl Rig {
     /// At the start of the dig scenario, everything healthy, enable off, levers in neutral.
@@ -62,23 +80,31 @@ impl Rig {
 
     /// Anywhere: lengths of boom, arm and bucket cylinder, m.
     pub fn standing(parameters: &Parameters, &[boom, arm, bucket]: &[f64; 3]) -> Self {
+        let sense = parameters.coils.sense;
         let mut ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
         ecu.self_tested(&SelfTest::PASSED);
         let mut rig = Self {
             ecu,
             inputs: Inputs {
                 codes: [32768; 4],
-                supply_code: 39321,
-                command_counter: 0,
-                request: Request::Neutral,
-                levers: [0; 4],
+                supply_code: SUPPLY_CODES[0],
+                sensor_supply_code: SUPPLY_CODES[1],
+                coil_codes: [[0; 2]; 4],
+                command: None,
+                slope: None,
+                pressures_pa: [[None; 2]; 3],
                 enable: false,
                 converters_sound: [true; 2],
                 cut_off_closed: false,
                 emergency_stop: false,
                 overrun: false,
             },
+            request: Request::Neutral,
+            levers: [0; 4],
             sending: true,
+            solenoids: [[Solenoid::new(REFERENCE, 20.0); 2]; 4],
+            adc: CurrentAdc { full_scale_a: sense.full_scale_a.into(), zero_code: sense.zero_code, noise_a: 0.0 },
+            noisy: true,
             ticked: 0,
         };
         rig.stand_at(parameters, &Cylinders { boom, arm, bucket });
@@ -95,21 +121,35 @@ impl Rig {
 
     /// One tick.
     pub fn tick(&mut self) -> Outputs {
-        if self.sending {
-            self.inputs.command_counter = self.inputs.command_counter.wrapping_add(1);
-        }
+        self.inputs.command = self.sending.then_some(Intent { request: self.request, levers: self.levers });
+        self.inputs.coil_codes = self.coil_codes();
         let inputs = self.with_noise();
         let outputs = self.ecu.tick(&inputs);
-        // The relay's contact follows.
-        self.inputs.cut_off_closed = outputs.cut_off_closed;
+        self.drive(&outputs);
         outputs
     }
 
-    /// A living sensor is never quite still; a broken wire is.
+    /// A living sensor is never quite still; a broken wire is, and so is one at the end of its range.
     fn with_noise(&mut self) -> Inputs {
-        self.ticked = self.ticked.wrapping_add(1);
-        let noise = |code: u16| if (500..65_000).contains(&code) { code + self.ticked % 5 } else { code };
+        self.ticked = if self.noisy { self.ticked.wrapping_add(1) } else { 0 };
+        let noise = |code: u16| if (2000..63_000).contains(&code) { code + self.ticked % 5 } else { code };
         Inputs { codes: self.inputs.codes.map(noise), ..self.inputs }
+    }
+
+    /// What the coils' converter says.
+    pub fn coil_codes(&self) -> [Solenoids<u16>; 4] {
+        let mut silent = Noise::new(1);
+        self.solenoids.map(|spool| spool.map(|solenoid| self.adc.code(&solenoid, &mut silent)))
+    }
+
+    /// The cut-off's contact and the solenoids follow the outputs.
+    pub fn drive(&mut self, outputs: &Outputs) {
+        let cut_off_closed = outputs.cut_off_closed;
+        self.inputs.cut_off_closed = cut_off_closed;
+        for (solenoid, duty) in self.solenoids.iter_mut().flatten().zip(outputs.duties.into_iter().flatten()) {
+            let drive = Drive { duty: f64::from(duty) / 65535.0, supply_v: SUPPLY_V, cut_off_closed };
+            solenoid.step(&drive, STEP_S);
+        }
     }
 
     /// Several ticks; gives the last outputs.
@@ -120,7 +160,7 @@ impl Rig {
     /// Neutral, then enable: the controller runs.
     pub fn start(&mut self) -> Outputs {
         self.inputs.enable = false;
-        self.inputs.request = Request::Neutral;
+        self.request = Request::Neutral;
         self.ticks(5);
         self.inputs.enable = true;
         let outputs = self.tick();
@@ -131,7 +171,7 @@ impl Rig {
     /// Running, and digging for so many ticks with the machine standing still.
     pub fn dig(&mut self, ticks: u32) -> Outputs {
         self.start();
-        self.inputs.request = Request::Dig;
+        self.request = Request::Dig;
         self.ticks(ticks)
     }
 }

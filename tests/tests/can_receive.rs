@@ -208,16 +208,6 @@ fn one_pressure_sensors_failure_is_not_the_others() {
     assert_eq!(boom.map(|p| p.validity), [Validity::Stale; 2]);
 }
 
-#[test]
-fn every_good_mode_moves_the_applications_counter_on() {
-    let mut bench = digging();
-    let before = bench.inbox().modes_taken();
-    bench.tick(&[mode(4, Mode::Dig)]);
-    bench.tick(&[mode(4, Mode::Dig)]);
-    bench.tick(&[flipped(&mode(5, Mode::Dig), 1)]);
-    assert_eq!(bench.inbox().modes_taken(), before.wrapping_add(1));
-}
-
 /// Any frame, half of them under an identifier that is heard.
 fn frames() -> impl Strategy<Value = CanFrame> {
     let heard = (0..table::MESSAGES.len()).prop_map(|index| {

@@ -32,7 +32,7 @@ impl Machine {
         let parameters = scenario("dig").parameters;
         let mut controller = Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("a valid record");
         controller.self_tested(&SelfTest::PASSED);
-        let mut machine = Self {
+        Self {
             board: board_on(Bus::default()),
             controller,
             rig: Rig::new(),
@@ -41,9 +41,7 @@ impl Machine {
             mode: Mode::Neutral,
             boom: (0.0, 0.0),
             silent: false,
-        };
-        machine.put_codes();
-        machine
+        }
     }
 
     /// Volts at the converters' inputs for the rig's codes.
@@ -56,6 +54,10 @@ impl Machine {
             put(0, channel, code);
         }
         put(0, 4, self.rig.inputs.supply_code);
+        put(0, 5, self.rig.inputs.sensor_supply_code);
+        for (channel, code) in self.rig.coil_codes().into_iter().flatten().enumerate() {
+            put(1, channel, code);
+        }
     }
 
     fn operate(&mut self) {
@@ -77,7 +79,10 @@ impl Machine {
 
     fn cycle(&mut self) -> Outputs {
         self.operate();
-        self.controller.cycle(&mut self.board, false)
+        self.put_codes();
+        let outputs = self.controller.cycle(&mut self.board, false);
+        self.rig.drive(&outputs);
+        outputs
     }
 
     fn cycles(&mut self, count: u32) -> Outputs {
@@ -125,13 +130,16 @@ fn through_the_pins_the_application_does_what_it_does_without_them() {
     let mut machine = Machine::new();
     machine.start();
     let mut rig = machine.rig.clone();
+    // The board's pins have none.
+    rig.noisy = false;
     rig.start();
     machine.mode = Mode::Dig;
-    rig.inputs.request = Request::Dig;
+    rig.request = Request::Dig;
     // Until the operator's next message.
     while machine.cycle().dig_tick == 0 {}
     let mut direct = rig.tick();
-    for _ in 0..500 {
+    // Not so long that sensors without noise count as stuck.
+    for _ in 0..300 {
         let through = machine.cycle();
         direct = rig.tick();
         assert_eq!(through.duties, direct.duties);
@@ -170,18 +178,18 @@ fn a_silent_operator_or_one_without_his_levers_is_a_stale_command() {
 
 #[test]
 fn broken_converters_switches_and_read_backs_stop_the_machine_by_name() {
-    type Break1 = fn(&mut SimBoard<Bus>);
+    type Break1 = fn(&mut Machine);
     let cases: [(&str, Break1, Fault); 5] = [
-        ("sensors' converter", |b| b.adcs[0].bus().set_broken(Some(Break::StuckLow)), Fault::SensorConverter),
-        ("coils' converter", |b| b.adcs[1].bus().set_broken(Some(Break::Noisy)), Fault::CoilConverter),
-        ("stop input", |b| b.emergency_stop_released.0.set(None), Fault::EmergencyStop),
-        ("stop wire", |b| b.emergency_stop_released.0.set(Some(false)), Fault::EmergencyStop),
-        ("boom sensor", |b| assert!(b.adcs[0].bus().set_volts(1, 0.0)), Fault::Sensor(kinematics_core::Cylinder::Boom)),
+        ("sensors' converter", |m| m.board.adcs[0].bus().set_broken(Some(Break::StuckLow)), Fault::SensorConverter),
+        ("coils' converter", |m| m.board.adcs[1].bus().set_broken(Some(Break::Noisy)), Fault::CoilConverter),
+        ("stop input", |m| m.board.emergency_stop_released.0.set(None), Fault::EmergencyStop),
+        ("stop wire", |m| m.board.emergency_stop_released.0.set(Some(false)), Fault::EmergencyStop),
+        ("boom sensor", |m| m.rig.inputs.codes[1] = 0, Fault::Sensor(kinematics_core::Cylinder::Boom)),
     ];
     for (what, break_it, fault) in cases {
         let mut machine = Machine::new();
         machine.start();
-        break_it(&mut machine.board);
+        break_it(&mut machine);
         let outputs = machine.cycle();
         assert_eq!(outputs.fault, Some(fault), "{what}");
         assert!(!machine.cut_off_closed(), "{what}");

@@ -371,7 +371,7 @@ fn the_freeze_frame_keeps_what_was_known_at_the_first_fault() {
     let frame = *rig.ecu.freeze_frame().expect("a fault was latched");
     assert_eq!((frame.tick, frame.fault, frame.state), (outputs.tick, Fault::Jump(Cylinder::Boom), State::Running));
     assert_eq!((frame.lengths, frame.sent), (before.lengths, before.speeds));
-    assert_eq!(frame.request, firmware::Request::Dig);
+    assert_eq!(frame.command.map(|intent| intent.request), Some(firmware::Request::Dig));
     assert!((frame.supply_v - 24.0).abs() < 0.1);
     assert!(frame.codes[1].abs_diff(code + 5000) < 50 && frame.speeds.boom.abs() < 0.1);
 }

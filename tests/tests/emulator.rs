@@ -125,6 +125,8 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(median("coil_stage_driven") <= 1200 && largest("coil_stage_driven") <= 1850);
     assert!(largest("coil_stage_dying") <= 1600);
     assert!(largest("coil_stage_off") <= 200);
+    // Of all four actuators.
+    assert!(median("diagnosis_moving") <= 200 && median("diagnosis_at_rest") <= 200);
 }
 
 #[test]

@@ -56,7 +56,8 @@ fn each_lever_moves_its_own_actuator_at_the_speed_asked_for() {
             println!("{actuator} {deflection}: {moved:?}, {expected}");
             for (i, moved) in moved.into_iter().enumerate() {
                 let expected = if i == actuator { expected } else { 0.0 };
-                assert!((moved - expected).abs() <= 2e-3 * expected.abs() + 1e-12, "{i}: {moved} for {expected}");
+                // The bus carries flows in steps of 0.4 %, and the current takes some milliseconds to come and to go.
+                assert!((moved - expected).abs() <= 12e-3 * expected.abs() + 1e-12, "{i}: {moved} for {expected}");
             }
         }
     }
@@ -84,9 +85,9 @@ fn the_backhoes_swing_cylinder_swings_it() {
 fn no_command_no_motion_whatever_the_levers_say() {
     let mut rig = Rig::new();
     rig.start();
-    rig.inputs.levers = [i16::MAX, 0, i16::MIN, 0];
+    rig.levers = [i16::MAX, 0, i16::MIN, 0];
     assert_eq!(rig.ticks(5).duties, [[0; 2]; 4], "the levers count only when they are asked for");
-    rig.inputs.request = Request::Levers;
+    rig.request = Request::Levers;
     assert!(drives(&rig.tick()));
     rig.sending = false;
     let outputs = rig.ticks(200);
@@ -99,7 +100,7 @@ fn a_dig_without_a_dig_in_the_parameters_is_a_fault_that_says_so() {
     let scenario = scenario("levers-zx200");
     let mut rig = Rig::standing(&scenario.parameters, &[2.3, 2.6, 2.2]);
     rig.start();
-    rig.inputs.request = Request::Dig;
+    rig.request = Request::Dig;
     let outputs = rig.tick();
     assert_eq!(outputs.fault, Some(Fault::NotConfigured));
     assert!(is_safe(&outputs));
@@ -109,9 +110,9 @@ fn a_dig_without_a_dig_in_the_parameters_is_a_fault_that_says_so() {
 fn changing_from_the_dig_to_the_levers_and_back_starts_the_dig_over() {
     let mut rig = Rig::new();
     rig.dig(500);
-    rig.inputs.request = Request::Levers;
+    rig.request = Request::Levers;
     let outputs = rig.tick();
     assert_eq!((outputs.dig_tick, outputs.speeds.to_array()), (0, [0.0; 4]));
-    rig.inputs.request = Request::Dig;
+    rig.request = Request::Dig;
     assert_eq!(rig.tick().dig_tick, 1);
 }

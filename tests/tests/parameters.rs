@@ -12,7 +12,7 @@ fn dig(p: &mut Parameters) -> &mut DigParameters {
     p.dig.as_mut().expect("a dig")
 }
 
-const SPOILT: [(&str, Spoil); 36] = [
+const SPOILT: [(&str, Spoil); 38] = [
     ("links.boom_m", |p| p.geometry.boom_m = -1.0),
     ("boom.base_x_m", |p| p.geometry.boom.base.x = f64::NAN),
     ("sensor.min_code", |p| p.cylinder_sensors[0].min_code = 60_000),
@@ -24,16 +24,18 @@ const SPOILT: [(&str, Spoil); 36] = [
     ("sensor.stroke.max_m", |p| p.cylinder_sensors[2].stroke.max_m = -1.0),
     ("sensor.tolerance_codes", |p| p.cylinder_sensors[1].tolerance_codes = 60_000),
     ("sensor.max_code", |p| p.cylinder_sensors[2].max_code = 0),
-    ("valve.dead_band", |p| p.valves[0][0].dead_band = 0.95),
-    ("valve.dead_band", |p| p.valves[2][1].dead_band = f32::NAN),
-    ("valve.full_speed", |p| p.valves[1][0].full_speed = 0.0),
-    ("coil.full_scale_a", |p| p.coil.full_scale_a = 0.0),
-    ("coil.resistance_ohm", |p| p.coil.resistance_ohm = -1.0),
+    ("valve.min_current_a", |p| p.coils.spools[0].flow[0].min_current_a = 1.19),
+    ("valve.min_current_a", |p| p.coils.spools[2].flow[1].min_current_a = f32::NAN),
+    ("valve.full_speed", |p| p.coils.spools[1].flow[0].full_speed = 0.0),
+    ("valve.max_current_a", |p| p.coils.spools[3].flow[1].max_current_a = 0.0),
+    ("coil.resistance_ohm", |p| p.coils.coil.resistance_ohm = -1.0),
+    ("sensor_supply.full_scale_v", |p| p.sensor_supply.full_scale_v = 2.0),
+    ("sensor_supply.min_v", |p| p.sensor_supply.min_v = f32::NAN),
+    ("sensor_supply.max_v", |p| p.sensor_supply.max_v = 10.3),
     ("supply.full_scale_v", |p| p.supply.full_scale_v = f32::INFINITY),
     ("supply.min_v", |p| p.supply.min_v = 0.0),
     ("supply.max_v", |p| p.supply.max_v = 100.0),
     ("supply.min_v", |p| p.supply.min_v = 33.0),
-    ("command_timeout_ticks", |p| p.command_timeout_ticks = 0),
     ("motion.preview_s", |p| p.motion.preview_s = -0.1),
     ("motion.gain_per_s", |p| p.motion.gain_per_s = 21.0),
     ("motion.smallest_speed_mps", |p| p.motion.smallest_speed_mps = f32::NAN),
@@ -121,7 +123,7 @@ fn the_record_fits_the_link_and_survives_its_own_bytes() {
         let parameters = scenario(&name).parameters;
         let bytes = postcard::to_stdvec(&parameters).unwrap();
         println!("{name}: {} bytes", bytes.len());
-        assert!(bytes.len() <= firmware::link::RECORD_BYTES);
+        assert!(bytes.len() <= firmware::simulated::link::RECORD_BYTES);
         assert_eq!(postcard::from_bytes::<Parameters>(&bytes).unwrap(), parameters);
     }
 }

@@ -3,10 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use firmware::command::Intent;
+use firmware::parameters::Supply;
 use firmware::supervisor::machine::{Facts, next, transitions};
 use firmware::supervisor::{Check, Gate, IDLE_TICKS, OVERRUN_TICKS, Supervisor, Watched};
-use firmware::{Fault, Inputs, Request, SelfTest, State};
+use firmware::valve::coil_fault::{CoilFault, FaultyCoil};
+use firmware::{Fault, Inputs, Intent, Request, SelfTest, State};
 
 fn every_set() -> Vec<Facts> {
     let count = Facts::NAMED.len();
@@ -114,21 +115,25 @@ fn every_arrow_of_the_table_is_taken_by_something_and_changes_the_state() {
 const HEALTHY: Inputs = Inputs {
     codes: [32768; 4],
     supply_code: 39321,
-    command_counter: 0,
-    request: Request::Neutral,
-    levers: [0; 4],
+    sensor_supply_code: 63_999,
+    coil_codes: [[2048; 2]; 4],
+    command: Some(Intent::NEUTRAL),
+    slope: None,
+    pressures_pa: [[None; 2]; 3],
     converters_sound: [true; 2],
     cut_off_closed: false,
     enable: false,
     emergency_stop: false,
     overrun: false,
 };
-const AT_REST: Watched = Watched {
-    intent: Intent { request: Request::Neutral, levers: [0; 4], fresh: true },
-    supply_v: 24.0,
-    stage_fault: None,
-    moving: false,
-};
+const AT_REST: Watched =
+    Watched { supply_v: 24.0, sensor_supply_v: 10.0, coil: None, stage_fault: None, moving: false };
+const SUPPLY: Supply = Supply { full_scale_v: 40.0, min_v: 9.0, max_v: 32.0 };
+const SENSOR_SUPPLY: Supply = Supply { full_scale_v: 10.24, min_v: 9.5, max_v: 10.2 };
+
+fn asking(request: Request) -> Option<Intent> {
+    Some(Intent { request, levers: [0; 4] })
+}
 
 /// A supervisor with the relay that follows it.
 #[derive(Clone, Copy)]
@@ -140,7 +145,7 @@ struct Bench {
 
 impl Bench {
     fn untested() -> Self {
-        Self { supervisor: Supervisor::new([9.0, 32.0]), inputs: HEALTHY, watched: AT_REST }
+        Self { supervisor: Supervisor::new(&SUPPLY, &SENSOR_SUPPLY), inputs: HEALTHY, watched: AT_REST }
     }
 
     fn locked() -> Self {
@@ -203,8 +208,8 @@ fn the_whole_supervisor_opens_the_gate_only_while_running_whatever_comes_in_in_e
                 b.inputs.overrun = bit(2);
                 b.inputs.converters_sound = [bit(3), bit(4)];
                 b.inputs.cut_off_closed = bit(5);
-                b.watched.intent.fresh = bit(6);
-                b.watched.intent.request = if bit(7) { Request::Neutral } else { Request::Levers };
+                let command = asking(if bit(7) { Request::Neutral } else { Request::Levers });
+                b.inputs.command = command.filter(|_| bit(6));
                 b.watched.supply_v = if bit(8) { 24.0 } else { 8.9 };
                 b.watched.moving = bit(9);
                 b.watched.stage_fault = stage_fault;
@@ -214,8 +219,8 @@ fn the_whole_supervisor_opens_the_gate_only_while_running_whatever_comes_in_in_e
                     || b.watched.supply_v < 9.0
                     || stage_fault.is_some();
                 let open = match state {
-                    State::Running => b.inputs.enable && b.watched.intent.fresh && !wrong,
-                    State::Ready => b.inputs.enable && b.watched.intent.fresh && bit(7) && !wrong,
+                    State::Running => b.inputs.enable && bit(6) && !wrong,
+                    State::Ready => b.inputs.enable && bit(6) && bit(7) && !wrong,
                     _ => false,
                 };
                 assert_eq!((gate == Gate::Open, to == State::Running), (open, open), "{state:?} {b:?}");
@@ -293,7 +298,7 @@ fn a_lever_or_a_motion_keeps_it_enabled() {
         for tick in 0..3 * IDLE_TICKS {
             let busy = tick % 9000 == 0;
             bench.watched.moving = busy && moving;
-            bench.watched.intent.request = if busy && !moving { Request::Levers } else { Request::Neutral };
+            bench.inputs.command = asking(if busy && !moving { Request::Levers } else { Request::Neutral });
             assert_eq!(bench.tick(), (State::Running, Gate::Open));
         }
     }
@@ -330,8 +335,12 @@ fn a_fault_that_needs_a_restart_takes_the_name_of_one_that_does_not() {
 }
 
 #[test]
-fn exactly_the_faults_of_memory_scheduling_and_outputs_need_a_restart() {
-    let grave: Vec<&str> = Fault::ALL.into_iter().filter(|f| f.needs_restart()).map(Fault::name).collect();
+fn exactly_the_faults_of_memory_scheduling_and_outputs_and_crossed_coils_need_a_restart() {
+    let (coils, grave): (Vec<Fault>, Vec<Fault>) =
+        Fault::ALL.into_iter().filter(|f| f.needs_restart()).partition(|fault| matches!(fault, Fault::Coil(_)));
+    let cross = |fault: &Fault| matches!(fault, Fault::Coil(FaultyCoil { fault: CoilFault::Cross, .. }));
+    assert!(coils.len() == 8 && coils.iter().all(cross), "{coils:?}");
+    let grave: Vec<&str> = grave.into_iter().map(Fault::name).collect();
     let expected = [
         "tick_overrun",
         "cut_off_welded",

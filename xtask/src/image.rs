@@ -23,7 +23,14 @@ pub(crate) fn command(names: &[String]) -> Outcome<bool> {
 pub(crate) fn build(names: &[String], toolchain: &Toolchain) -> Outcome<Vec<PathBuf>> {
     announce("ARM images");
     let mut cargo = toolchain.build();
-    cargo.args(["--profile=image", "--package", "firmware", "--message-format=json-render-diagnostics"]);
+    cargo.args([
+        "--profile=image",
+        "--package",
+        "firmware",
+        "--features",
+        "simulated",
+        "--message-format=json-render-diagnostics",
+    ]);
     if names.is_empty() {
         cargo.arg("--bins");
     }

@@ -22,8 +22,18 @@ pub(crate) fn command() -> Outcome<bool> {
     match arm::rustup() {
         Ok(_) => {
             // In the images' profile, so that the macros are built once for this and for the images.
-            let images =
-                ["clippy", "--profile=image", "--package", "firmware", "--lib", "--bins", "--target", arm::TARGET];
+            let images = [
+                "clippy",
+                "--profile=image",
+                "--package",
+                "firmware",
+                "--features",
+                "simulated",
+                "--lib",
+                "--bins",
+                "--target",
+                arm::TARGET,
+            ];
             run(cargo().args(images).args(DENY))?;
         }
         // Clippy is part of the toolchain, so Debian's compiler cannot stand in.

@@ -7,11 +7,10 @@ use embedded_can::nb::Can;
 use super::signals::Measured;
 use super::{Board, BoardError, Switches};
 use crate::can::address::{AddressError, Addresses, Name};
-use crate::can::command::Mode;
 use crate::can::dm1::ActiveFaults;
-use crate::can::inbox::Inbox;
 use crate::can::{CanFrame, Node};
-use crate::io::{Inputs, Outputs, Request};
+use crate::command::Intent;
+use crate::io::{Inputs, Outputs};
 use crate::motion::Followers;
 use crate::{Ecu, Fault, ParameterError, Parameters, SelfTest};
 
@@ -23,9 +22,6 @@ const FRAMES: usize = 4;
 pub struct Controller<F = Followers> {
     ecu: Ecu<F>,
     node: Node,
-    /// Moves on with every good command, as long as everything the command needs is fresh.
-    alive: u8,
-    last_modes_taken: u8,
 }
 
 /// Why there is no controller.
@@ -72,8 +68,6 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         Ok(Self {
             ecu: Ecu::with(parameters, followers).map_err(ControllerError::Parameter)?,
             node: Node::new(addresses, name).map_err(ControllerError::Address)?,
-            alive: 0,
-            last_modes_taken: 0,
         })
     }
 
@@ -82,10 +76,16 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         self.ecu.self_tested(report);
     }
 
-    /// One control period; `overrun` says that the one before did not end in time.
-    ///
-    /// The watchdog is fed only here, and only when every output took what it was given.
+    /// One control period: [`Self::read`], [`Self::tick`], [`Self::write`]. `overrun` says that the one before did not end in time.
     pub fn cycle<B: Board>(&mut self, board: &mut B, overrun: bool) -> Outputs {
+        let inputs = self.read(board, overrun);
+        let outputs = self.tick(&inputs);
+        self.write(board, &outputs);
+        outputs
+    }
+
+    /// CAN frames, converters and switches as the application's inputs.
+    pub fn read<B: Board>(&mut self, board: &mut B, overrun: bool) -> Inputs {
         self.node.aged();
         for _ in 0..FRAMES {
             let Ok(frame) = board.can().receive() else { break };
@@ -93,73 +93,53 @@ impl<F: BorrowMut<Followers>> Controller<F> {
                 self.node.receive(&frame);
             }
         }
-        let inputs = self.inputs(board, overrun);
-        let outputs = self.ecu.tick(&inputs);
-        if write(board, &outputs).is_ok() {
-            board.feed_watchdog();
-        }
-        let latched = ActiveFaults::from(outputs.fault);
-        let active = if outputs.late { latched.with(Fault::LateTick) } else { latched };
-        for frame in self.node.due(&outputs, active).iter().flatten() {
-            if let Some(frame) = embedded_can::Frame::new(frame.extended_id(), embedded_can::Frame::data(frame)) {
-                // A full mailbox loses telemetry, nothing else.
-                let _ = board.can().transmit(&frame);
-            }
-        }
-        outputs
-    }
-
-    fn inputs<B: Board>(&mut self, board: &mut B, overrun: bool) -> Inputs {
         let scans = board.scan();
         let converters_sound = scans.each_ref().map(Result::is_ok);
         let measured = Measured::from_scans(&scans.map(Result::unwrap_or_default));
         // A switch that cannot be read is a pressed emergency stop; a cut-off that cannot be read has not opened.
         let switches = board.switches().unwrap_or(Switches { enable: false, emergency_stop: true });
-        let cut_off_closed = board.cut_off_is_closed().unwrap_or(true);
         let inbox = self.node.inbox();
-        let (taken, command) = (inbox.modes_taken(), command(inbox));
-        if command.is_some() && taken != self.last_modes_taken {
-            self.alive = self.alive.wrapping_add(1);
-        }
-        self.last_modes_taken = taken;
-        let (request, levers) = command.unwrap_or((Request::Neutral, [0; 4]));
         Inputs {
             codes: measured.positions,
             supply_code: measured.supply,
-            command_counter: self.alive,
-            request,
-            levers,
+            sensor_supply_code: measured.sensor_supply,
+            coil_codes: measured.coils,
             converters_sound,
-            cut_off_closed,
+            command: Intent::of(inbox),
+            slope: inbox.slope().value,
+            pressures_pa: inbox.pressures_pa().map(|sides| sides.map(|side| side.value)),
+            cut_off_closed: board.cut_off_is_closed().unwrap_or(true),
             enable: switches.enable,
             emergency_stop: switches.emergency_stop,
             overrun,
         }
     }
-}
 
-/// What the operator asks for; `None` unless every message it needs is fresh. Levers are believed together or not at all.
-fn command(inbox: &Inbox) -> Option<(Request, [i16; 4])> {
-    let still = [0; 4];
-    match inbox.mode().value? {
-        Mode::Neutral | Mode::Hold => Some((Request::Neutral, still)),
-        Mode::Dig => Some((Request::Dig, still)),
-        Mode::Reach => Some((Request::Reach, still)),
-        Mode::Move => Some((Request::Move, still)),
-        // Not a motion of this controller yet: like silence, so that it ends in a named fault.
-        Mode::TipVelocity => None,
-        Mode::Levers => {
-            let mut levers = still;
-            for (lever, valve) in levers.iter_mut().zip(inbox.valves()) {
-                *lever = valve.value?.lever()?;
+    /// The application's tick.
+    #[inline(always)]
+    pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
+        self.ecu.tick(inputs)
+    }
+
+    /// Duties and cut-off, the frames due, and last the watchdog: fed only here, and only when every output took what it was given.
+    pub fn write<B: Board>(&mut self, board: &mut B, outputs: &Outputs) {
+        let driven = drive(board, outputs);
+        let latched = ActiveFaults::from(outputs.fault);
+        let active = if outputs.late { latched.with(Fault::LateTick) } else { latched };
+        for frame in self.node.due(outputs, active).iter().flatten() {
+            if let Some(frame) = embedded_can::Frame::new(frame.extended_id(), embedded_can::Frame::data(frame)) {
+                // A full mailbox loses telemetry, nothing else.
+                let _ = board.can().transmit(&frame);
             }
-            Some((Request::Levers, levers))
+        }
+        if driven.is_ok() {
+            board.feed_watchdog();
         }
     }
 }
 
 /// Duties and cut-off. An output that fails takes the others down with it: all duties zero, cut-off open, watchdog unfed.
-fn write<B: Board>(board: &mut B, outputs: &Outputs) -> Result<(), BoardError> {
+fn drive<B: Board>(board: &mut B, outputs: &Outputs) -> Result<(), BoardError> {
     let driven = board.drive(&outputs.duties);
     let done = driven.and(board.set_cut_off(outputs.cut_off_closed));
     if done.is_err() {

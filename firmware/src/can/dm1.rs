@@ -19,12 +19,12 @@ const MOST_OCCURRENCES: u8 = 126;
 
 /// A set of faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ActiveFaults(u64);
+pub struct ActiveFaults(u128);
 
 const _: () = {
     let mut i = 0;
     while i < FAULTS {
-        assert!(Fault::ALL[i].code() < 64, "a fault's code must fit the set");
+        assert!(Fault::ALL[i].code() < 128, "a fault's code must fit the set");
         i += 1;
     }
 };
@@ -44,9 +44,9 @@ impl ActiveFaults {
         self.0 & Self::bit(fault) != 0
     }
 
-    const fn bit(fault: Fault) -> u64 {
-        // Codes are below 64, asserted above.
-        1 << (fault.code() & 63)
+    const fn bit(fault: Fault) -> u128 {
+        // Codes are below 128, asserted above.
+        1 << (fault.code() & 127)
     }
 
     fn set(&mut self, fault: Fault, active: bool) {

@@ -29,7 +29,6 @@ pub struct Inbox {
     valves: [Received<ValveCommand>; 4],
     tip_velocity: Received<TipVelocity>,
     mode: Received<Mode>,
-    modes_taken: u8,
     slope: Received<Slope>,
     pressures: [Received<Pressures>; 3],
 }
@@ -42,7 +41,6 @@ impl Inbox {
             valves: [Received::new(table::TIMEOUT_MS); 4],
             tip_velocity: Received::new(table::TIMEOUT_MS),
             mode: Received::new(table::TIMEOUT_MS),
-            modes_taken: 0,
             slope: Received::new(table::TIMEOUT_MS),
             pressures: [Received::new(table::TIMEOUT_MS); 3],
         }
@@ -60,8 +58,8 @@ impl Inbox {
         if is(&table::TIP_VELOCITY.header) {
             self.tip_velocity.take(&table::TIP_VELOCITY.header, id, frame, TipVelocity::of);
         }
-        if is(&table::MODE.header) && self.mode.take(&table::MODE.header, id, frame, Mode::of) {
-            self.modes_taken = self.modes_taken.wrapping_add(1);
+        if is(&table::MODE.header) {
+            self.mode.take(&table::MODE.header, id, frame, Mode::of);
         }
         if is(&table::SLOPE.header) {
             self.slope.take(&table::SLOPE.header, id, frame, Slope::of);
@@ -95,11 +93,6 @@ impl Inbox {
     /// The mode command.
     pub fn mode(&self) -> Reading<Mode> {
         self.mode.reading()
-    }
-
-    /// Counts the good mode commands, from 255 to 0: moves on as long as the operator is there.
-    pub fn modes_taken(&self) -> u8 {
-        self.modes_taken
     }
 
     /// The chassis' slope.

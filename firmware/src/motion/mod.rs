@@ -75,7 +75,7 @@ impl Followers {
         p: &Parameters,
         machine: &Machine<f32>,
     ) -> Result<(), ParameterError> {
-        self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.valves, &p.motion)?));
+        self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.coils.valves(), &p.motion)?));
         Ok(())
     }
 }
@@ -110,7 +110,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         followers.borrow_mut().plan(p, machine)?;
         Ok(Self {
             dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
-            levers: Levers::new(&p.valves, p.motion.smallest_speed_mps),
+            levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
             followers,
             request: Request::Neutral,
         })

@@ -6,9 +6,10 @@
 pub mod machine;
 pub mod self_test;
 
-use crate::command::Intent;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, Request};
+use crate::parameters::Supply;
+use crate::valve::coil_fault::FaultyCoil;
 use machine::{Facts, next};
 
 pub use self_test::{Check, SelfTest};
@@ -25,10 +26,12 @@ pub const OVERRUN_TICKS: u8 = 3;
 /// What the stages report this tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watched {
-    /// The operator's intent.
-    pub intent: Intent,
     /// Supply voltage, V.
     pub supply_v: f32,
+    /// The position sensors' supply, V.
+    pub sensor_supply_v: f32,
+    /// The most urgent fault the coils' currents showed in the last tick.
+    pub coil: Option<FaultyCoil>,
     /// First fault of the stages.
     pub stage_fault: Option<Fault>,
     /// Some actuator moves.
@@ -48,6 +51,7 @@ pub enum Gate {
 #[derive(Clone, Copy, Debug)]
 pub struct Supervisor {
     supply_range_v: [f32; 2],
+    sensor_supply_range_v: [f32; 2],
     state: State,
     /// The latched fault: cleared only when running begins afresh.
     fault: Option<Fault>,
@@ -64,10 +68,11 @@ pub struct Supervisor {
 }
 
 impl Supervisor {
-    /// Waiting for the self-test; the supply may be within this range, V.
-    pub const fn new(supply_range_v: [f32; 2]) -> Self {
+    /// Waiting for the self-test, with these supplies' ranges.
+    pub const fn new(supply: &Supply, sensor_supply: &Supply) -> Self {
         Self {
-            supply_range_v,
+            supply_range_v: [supply.min_v, supply.max_v],
+            sensor_supply_range_v: [sensor_supply.min_v, sensor_supply.max_v],
             state: State::SelfTest,
             fault: None,
             self_test: SelfTest::PENDING,
@@ -97,7 +102,7 @@ impl Supervisor {
 
     /// Judges one tick.
     pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
-        let at_rest = watched.intent.fresh && watched.intent.request == Request::Neutral;
+        let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
         self.count(inputs, at_rest && !watched.moving);
 
         let grave = self.grave(watched);
@@ -141,13 +146,16 @@ impl Supervisor {
         } else if self.cut_off_astray > CUT_OFF_TICKS && !self.told_closed {
             Some(Fault::CutOffWelded)
         } else {
-            watched.stage_fault.filter(|fault| fault.needs_restart()).or_else(|| self.self_test.fault())
+            let coil = watched.coil.map(Fault::Coil);
+            let grave = [coil, watched.stage_fault, self.self_test.fault()];
+            grave.into_iter().flatten().find(|fault| fault.needs_restart())
         }
     }
 
     /// What else is wrong this tick, most urgent first.
     fn wrong(&self, inputs: &Inputs, watched: &Watched) -> Option<Fault> {
-        let [low, high] = self.supply_range_v;
+        // Written so that NaN is outside.
+        let outside = |volts: f32, [low, high]: [f32; 2]| !(volts >= low && volts <= high);
         let [sensors_sound, coils_sound] = inputs.converters_sound;
         if inputs.emergency_stop {
             Some(Fault::EmergencyStop)
@@ -157,11 +165,15 @@ impl Supervisor {
             Some(Fault::SensorConverter)
         } else if !coils_sound {
             Some(Fault::CoilConverter)
-        } else if !(watched.supply_v >= low && watched.supply_v <= high) {
+        } else if outside(watched.supply_v, self.supply_range_v) {
             Some(Fault::Supply)
+        } else if let Some(coil) = watched.coil {
+            Some(Fault::Coil(coil))
+        } else if outside(watched.sensor_supply_v, self.sensor_supply_range_v) {
+            Some(Fault::SensorSupply)
         } else if watched.stage_fault.is_some() {
             watched.stage_fault
-        } else if self.state == State::Running && !watched.intent.fresh {
+        } else if self.state == State::Running && inputs.command.is_none() {
             Some(Fault::CommandStale)
         } else {
             None

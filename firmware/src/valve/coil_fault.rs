@@ -5,7 +5,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::interlock::Side;
-use crate::io::SPOOLS;
+use crate::io::{SPOOLS, Solenoids};
 use crate::parameters::{ParameterError, ordered, within};
 
 /// What is wrong with a coil, most urgent first.
@@ -54,7 +54,41 @@ pub struct FaultyCoil {
     pub fault: CoilFault,
 }
 
+/// The names of one coil's faults, in the order of [`CoilFault::ALL`].
+macro_rules! names {
+    ($coil:literal) => {
+        [
+            concat!($coil, "_coil_short_to_ground"),
+            concat!($coil, "_coil_short_to_supply"),
+            concat!($coil, "_coil_cross"),
+            concat!($coil, "_coil_over_current"),
+            concat!($coil, "_coil_open"),
+            concat!($coil, "_coil_saturated"),
+        ]
+    };
+}
+
+/// By spool, side and fault.
+const NAMES: [Solenoids<[&str; CoilFault::ALL.len()]>; SPOOLS.len()] = [
+    [names!("swing_extend"), names!("swing_retract")],
+    [names!("boom_extend"), names!("boom_retract")],
+    [names!("arm_extend"), names!("arm_retract")],
+    [names!("bucket_extend"), names!("bucket_retract")],
+];
+
 impl FaultyCoil {
+    /// Every fault of every coil, by their codes.
+    pub const ALL: [Self; CoilFault::ALL.len() * SPOOLS.len() * 2] = {
+        let first = Self { spool: 0, side: Side::Extend, fault: CoilFault::ShortToGround };
+        let mut all = [first; CoilFault::ALL.len() * SPOOLS.len() * 2];
+        let mut at = 0;
+        while at < all.len() {
+            all[at] = Self { spool: at / 2 % SPOOLS.len(), side: Side::BOTH[at % 2], fault: CoilFault::ALL[at / 8] };
+            at += 1;
+        }
+        all
+    };
+
     /// As a byte, 64…111.
     pub const fn code(&self) -> u8 {
         64 + self.fault as u8 * 8 + (self.spool as u8 & 3) * 2 + self.side as u8
@@ -62,18 +96,23 @@ impl FaultyCoil {
 
     /// From a byte.
     pub fn from_code(code: u8) -> Option<Self> {
-        let code = code.checked_sub(64)?;
-        let fault = CoilFault::ALL.into_iter().find(|fault| *fault as u8 == code >> 3)?;
-        let side = if code & 1 == 0 { Side::Extend } else { Side::Retract };
-        Some(Self { spool: usize::from(code >> 1 & 3), side, fault })
+        Self::ALL.into_iter().find(|coil| coil.code() == code)
+    }
+
+    /// Such as `boom_extend_coil_open`.
+    pub const fn name(&self) -> &'static str {
+        NAMES[self.spool & 3][self.side as usize][self.fault as usize]
+    }
+
+    /// Its coil's place among all coils, 0…7.
+    pub const fn coil(&self) -> u32 {
+        (self.spool as u32 & 3) * 2 + self.side as u32
     }
 }
 
 impl fmt::Display for FaultyCoil {
-    /// Such as `boom_extend_coil_open`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let spool = SPOOLS.get(self.spool).copied().unwrap_or("unknown");
-        write!(f, "{spool}_{}_coil_{}", self.side.name(), self.fault.name())
+        f.write_str(self.name())
     }
 }
 

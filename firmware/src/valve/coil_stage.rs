@@ -56,7 +56,7 @@ pub struct CoilStageParameters {
 }
 
 impl CoilStageParameters {
-    /// What [`super::Valve`] does with these valves and coils, but closed loop: linear flow, no ramp, no dither. `inductance_h` is the
+    /// For valves of linear flow, without ramp and dither. `inductance_h` is the
     /// coils'; the current answers in 5 ms where the supply lets it.
     pub fn plain(valves: &[Solenoids<ValveDirection>; 4], coil: &Coil, inductance_h: f32) -> Self {
         let spool = |valve: &Solenoids<ValveDirection>| SpoolParameters {
@@ -74,6 +74,11 @@ impl CoilStageParameters {
             sense: CurrentSense { full_scale_a: 2.0 * coil.full_scale_a, zero_code: 2048 },
             released_a: 0.05 * coil.full_scale_a,
         }
+    }
+
+    /// Each direction by its dead band and full speed alone.
+    pub fn valves(&self) -> [Solenoids<ValveDirection>; 4] {
+        self.spools.map(|spool| spool.flow.map(|flow| flow.direction()))
     }
 
     /// Checks every value.

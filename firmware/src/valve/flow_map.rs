@@ -29,7 +29,7 @@ pub struct FlowParameters {
 }
 
 impl FlowParameters {
-    /// The straight line from the dead band to the full speed: what [`super::Valve`] does.
+    /// The straight line from the dead band to the full speed.
     pub fn linear(valve: &ValveDirection, coil: &Coil) -> Self {
         Self {
             min_current_a: valve.dead_band * coil.full_scale_a,
@@ -39,6 +39,11 @@ impl FlowParameters {
             off_at: 0.0,
             flow_table: [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0],
         }
+    }
+
+    /// Its ends alone.
+    pub fn direction(&self) -> ValveDirection {
+        ValveDirection { dead_band: self.min_current_a / self.max_current_a, full_speed: self.full_speed }
     }
 
     /// Checks every value.

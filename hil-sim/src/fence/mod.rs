@@ -136,7 +136,7 @@ pub fn run(trial: &Trial, kind: Kind) -> Result<Kept, CampaignError> {
 }
 
 fn kept(scenario: &Scenario, watch: &Watch, log: &Log) -> Result<Kept, CampaignError> {
-    let full = scenario.parameters.valves;
+    let full = scenario.parameters.coils.valves();
     let (mut asked, mut through) = (0.0, 0.0);
     for row in &log.rows {
         let pairs = row.outputs.asked.to_array().into_iter().zip(row.outputs.speeds.to_array());

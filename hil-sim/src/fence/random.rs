@@ -91,7 +91,7 @@ fn base(machine: &MachineFile) -> Result<Scenario, String> {
          following_error_m = 0.1\n\
          [plant]\ndead_time_s = 0.1\nspool_lag_s = 0.05\ndead_band_extend = 0.15\ndead_band_retract = 0.20\n\
          swing_speed_rad_s = 1.2\nboom_speed_mps = {}\narm_speed_mps = {}\nbucket_speed_mps = {}\n\
-         retract_speed_ratio = 0.8\ncoil_full_scale_a = 1.2\ncoil_resistance_ohm = 5.3\nsupply_v = 24.0\n\
+         retract_speed_ratio = 0.8\ncoil_full_scale_a = 1.2\ncoil_resistance_ohm = 5.3\ncoil_inductance_h = 0.1\nsupply_v = 24.0\n\
          sensor_noise_m = 0.0001\n[fence]\n",
         speed(g.boom.stroke, boom_s),
         speed(g.arm.stroke, arm_s),

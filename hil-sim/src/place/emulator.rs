@@ -7,9 +7,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use firmware::frame::{INPUT_BYTES, OUTPUT_BYTES};
-use firmware::link::{KIND_END, KIND_TICK, REPLY_BYTES};
-use firmware::{Inputs, Outputs, Parameters};
+use firmware::frame::OUTPUT_BYTES;
+use firmware::simulated::link::{KIND_END, KIND_TICK, REPLY_BYTES};
+use firmware::simulated::{PIN_BYTES, Pins, WIRE_BYTES, Wires};
+use firmware::{Outputs, Parameters};
 
 use super::one_core::OneCore;
 use super::{Image, Place, PlaceError, Reply, Timing};
@@ -91,7 +92,7 @@ impl Emulator {
     /// # Errors
     /// The emulator was lost.
     pub fn finish(mut self) -> Result<u32, PlaceError> {
-        let mut end = [0; 1 + INPUT_BYTES];
+        let mut end = [0; 1 + WIRE_BYTES];
         end[0] = KIND_END;
         self.write(&end)?;
         let mut stack = [0; 4];
@@ -145,19 +146,21 @@ impl Emulator {
 }
 
 impl Place for Emulator {
-    fn tick(&mut self, inputs: &Inputs) -> Result<Reply, PlaceError> {
+    fn tick(&mut self, wires: &Wires) -> Result<Reply, PlaceError> {
         self.guard.alive();
-        let mut message = [KIND_TICK; 1 + INPUT_BYTES];
-        message[1..].copy_from_slice(&inputs.to_bytes());
+        let mut message = [KIND_TICK; 1 + WIRE_BYTES];
+        message[1..].copy_from_slice(&wires.to_bytes());
         self.write(&message)?;
         let mut reply = [0; REPLY_BYTES];
         self.read(&mut reply)?;
-        let (frame, measured) = reply.split_at(OUTPUT_BYTES);
+        let (frame, rest) = reply.split_at(OUTPUT_BYTES);
+        let (pins, measured) = rest.split_at(PIN_BYTES);
         let (started, instructions) = measured.split_at(4);
         let word = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().expect("split at four"));
         let outputs = Outputs::from_bytes(frame.try_into().expect("split at the frame's size"))?;
         let timing = Timing::Emulator { started_ns: word(started), instructions: word(instructions) };
-        Ok(Reply { outputs, timing })
+        let pins = Pins::from_bytes(pins.first_chunk().expect("the reply holds it"))?;
+        Ok(Reply { outputs, pins, timing })
     }
 }
 

@@ -5,7 +5,8 @@ mod host;
 mod image;
 mod one_core;
 
-use firmware::{Inputs, Outputs};
+use firmware::Outputs;
+use firmware::simulated::{Pins, Wires};
 
 pub use emulator::Emulator;
 pub use host::Host;
@@ -16,6 +17,8 @@ pub use image::{Image, ImageError};
 pub struct Reply {
     /// The application's outputs.
     pub outputs: Outputs,
+    /// What the board put on its pins.
+    pub pins: Pins,
     /// What was measured beside them.
     pub timing: Timing,
 }
@@ -43,7 +46,7 @@ pub trait Place {
     ///
     /// # Errors
     /// The place is lost.
-    fn tick(&mut self, inputs: &Inputs) -> Result<Reply, PlaceError>;
+    fn tick(&mut self, wires: &Wires) -> Result<Reply, PlaceError>;
 }
 
 /// Why a place cannot run the application.
@@ -69,4 +72,7 @@ pub enum PlaceError {
     /// The image answered with something that is no frame.
     #[error("the image's answer is no frame: {0}")]
     Frame(#[from] firmware::frame::FrameError),
+    /// The image's pins are none.
+    #[error("the image's pins are none: {0}")]
+    Pins(#[from] firmware::simulated::WireError),
 }

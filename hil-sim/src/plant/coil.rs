@@ -85,6 +85,9 @@ impl Solenoid {
             self.current_a = 0.0;
             return;
         }
+        if volts <= 0.0 && self.current_a == 0.0 {
+            return;
+        }
         let resistance = self.resistance_ohm();
         let saturation = self.current_a / self.model.saturation_a;
         let inductance = self.model.inductance_h / (1.0 + saturation * saturation);

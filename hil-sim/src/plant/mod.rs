@@ -5,8 +5,9 @@ pub mod coil;
 pub mod sensors;
 pub mod swing;
 
-use firmware::Outputs;
-use firmware::io::SPOOLS;
+use firmware::io::{SPOOLS, Solenoids};
+
+use coil::{Broken, Drive, Solenoid, SolenoidModel};
 
 pub use actuator::{Actuator, ActuatorModel};
 pub use swing::SwingDrive;
@@ -14,20 +15,34 @@ pub use swing::SwingDrive;
 /// One step of the plant, s: one control tick.
 pub const STEP_S: f64 = 0.001;
 
-/// Electrical facts the plant needs to turn a duty into a current.
+/// The solenoids, all alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoilModel {
     /// Full-scale current, A.
     pub full_scale_a: f64,
-    /// Winding resistance, Ω.
-    pub resistance_ohm: f64,
+    /// The winding.
+    pub winding: SolenoidModel,
+    /// Its temperature, °C.
+    pub temperature_c: f64,
 }
 
-/// Swing, boom, arm and bucket with their spools.
+/// What drives the plant over a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// PWM duties, 65535 is always on, a spool each.
+    pub duties: [Solenoids<u16>; 4],
+    /// The master cut-off's contact is closed.
+    pub cut_off_closed: bool,
+    /// Supply, V.
+    pub supply_v: f64,
+}
+
+/// Swing, boom, arm and bucket with their spools and solenoids.
 #[derive(Clone, Debug)]
 pub struct Plant {
+    solenoids: [Solenoids<Solenoid>; 4],
     actuators: [Actuator; 4],
-    coil: CoilModel,
+    full_scale_a: f64,
 }
 
 impl Plant {
@@ -36,17 +51,36 @@ impl Plant {
         let mut start = start.into_iter();
         // As many positions as models.
         let actuators = models.map(|model| Actuator::new(model, start.next().unwrap_or_default(), STEP_S));
-        Self { actuators, coil }
+        let solenoid = Solenoid::new(coil.winding, coil.temperature_c);
+        Self { solenoids: [[solenoid; 2]; 4], actuators, full_scale_a: coil.full_scale_a }
     }
 
-    /// One step under the outputs' duties at this supply voltage; an open cut-off lets no current through.
-    pub fn step(&mut self, outputs: &Outputs, supply_v: f64) {
-        let full_duty_a = if outputs.cut_off_closed { supply_v / self.coil.resistance_ohm } else { 0.0 };
-        for (actuator, [extend, retract]) in self.actuators.iter_mut().zip(outputs.duties) {
-            let current = |duty: u16| f64::from(duty) / 65535.0 * full_duty_a;
-            let command = (current(extend) - current(retract)) / self.coil.full_scale_a;
+    /// One step: duties to currents, currents to motion.
+    pub fn step(&mut self, driven: &Driven) {
+        let Driven { cut_off_closed, supply_v, .. } = *driven;
+        for ((actuator, solenoids), duties) in self.actuators.iter_mut().zip(&mut self.solenoids).zip(driven.duties) {
+            for (solenoid, duty) in solenoids.iter_mut().zip(duties) {
+                solenoid.step(&Drive { duty: f64::from(duty) / 65535.0, supply_v, cut_off_closed }, STEP_S);
+            }
+            let [extend, retract] = solenoids.each_ref().map(Solenoid::current_a);
+            let command = (extend - retract) / self.full_scale_a;
             actuator.step(command.clamp(-1.0, 1.0), STEP_S);
         }
+    }
+
+    /// The solenoids, a spool each.
+    pub fn solenoids(&self) -> &[Solenoids<Solenoid>; 4] {
+        &self.solenoids
+    }
+
+    /// Breaks a solenoid, or repairs it.
+    pub fn set_broken(&mut self, spool: usize, side: usize, broken: Option<Broken>) {
+        self.solenoids[spool][side].broken = broken;
+    }
+
+    /// Pressures of boom, arm and bucket, \[head, rod\], Pa; `None` of a plant without oil.
+    pub fn pressures_pa(&self) -> Option<[[f64; 2]; 3]> {
+        None
     }
 
     /// True positions of swing, boom, arm, bucket: m, a swing motor rad.

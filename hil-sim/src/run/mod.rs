@@ -1,9 +1,11 @@
 //! Running a scenario: plant, operator and controller, tick by tick.
 
+mod bus;
 mod log;
 mod operator;
 mod reach;
 mod summary;
+mod wiring;
 
 use std::time::Instant;
 
@@ -13,13 +15,16 @@ use firmware::{Outputs, TICKS_PER_S};
 use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor};
 
 use crate::place::{Place, PlaceError};
-use crate::plant::sensors::{Noise, code};
-use crate::plant::{Plant, SwingDrive};
-use crate::scenario::{Scenario, Task};
+use crate::plant::coil::Broken;
+use crate::plant::{Driven, Plant, SwingDrive};
+use crate::scenario::{Kind, Scenario, Task};
 use crate::travel::{Violation, violations};
 
+use bus::{Bus, Said};
+use wiring::{Measured, Wiring};
+
 pub use log::{FaultSeen, Log, Row, StopHit};
-pub use operator::Operator;
+pub use operator::{Doing, Operator};
 pub use reach::ReachSeen;
 pub use summary::{EmulatorFigures, InstructionCounts, Outcome, Summary};
 
@@ -31,7 +36,8 @@ pub struct Run<'a> {
     swing: SwingDrive,
     plant: Plant,
     operator: Operator,
-    noise: Noise,
+    bus: Bus,
+    wiring: Wiring,
 }
 
 /// Why a run cannot start or go on.
@@ -82,7 +88,8 @@ impl<'a> Run<'a> {
             swing,
             plant: Plant::new(scenario.plant, scenario.coil, start),
             operator: Operator::new(scenario),
-            noise: Noise::new(seed),
+            bus: Bus::default(),
+            wiring: Wiring::new(&scenario.parameters, swing, scenario.sensor_noise_m, seed),
         })
     }
 
@@ -100,31 +107,39 @@ impl<'a> Run<'a> {
         for tick in 0..ticks {
             let time_s = f64::from(tick) / f64::from(TICKS_PER_S);
             let positions = self.plant.positions();
-            let codes = self.codes(positions);
-            let inputs = self.operator.inputs(time_s, codes, cut_off_closed);
+            let doing = self.operator.at(time_s);
+            let pressures_pa = self.plant.pressures_pa();
+            let frames = self.bus.frames(&Said { intent: doing.intent, slope_deg: [0.0; 2], pressures_pa });
+            let supply_v = self.scenario.supply_v;
+            let measured = Measured { positions, solenoids: self.plant.solenoids(), supply_v, cut_off_closed };
+            let wires = self.wiring.wires(&measured, &doing, frames, &self.scenario.events, time_s);
 
-            let reply = place.tick(&inputs)?;
+            let reply = place.tick(&wires)?;
             // The relay's contact follows within the tick.
-            cut_off_closed = reply.outputs.cut_off_closed;
+            cut_off_closed = reply.pins.cut_off_closed;
             hash.update(&reply.outputs.to_bytes());
+            hash.update(&reply.pins.to_bytes());
 
             let held: Vec<_> = self.plant.against_stops().collect();
             log.stops(time_s, &held);
             log.push(self.row(time_s, positions, &reply.outputs), reply.timing);
-            self.plant.step(&reply.outputs, self.scenario.supply_v);
+            self.break_coils(time_s);
+            self.plant.step(&Driven { duties: reply.pins.duties, cut_off_closed, supply_v });
             progress(tick + 1, ticks);
         }
         log.finish(hash.finalize(), started.elapsed());
         Ok(log)
     }
 
-    fn codes(&mut self, [swing, boom, arm, bucket]: [f64; 4]) -> [u16; 4] {
-        let parameters = &self.scenario.parameters;
-        let sigma = self.scenario.sensor_noise_m;
-        let mut error = || sigma * self.noise.normal();
-        let swing = self.swing.code(&parameters.swing_sensor, swing, error());
-        let [of_boom, of_arm, of_bucket] = &parameters.cylinder_sensors;
-        [swing, code(of_boom, boom, error()), code(of_arm, arm, error()), code(of_bucket, bucket, error())]
+    /// Only the boom's extending solenoid is ever broken.
+    fn break_coils(&mut self, time_s: f64) {
+        let broken = [
+            (Kind::BoomCoilOpen, Broken::Open),
+            (Kind::BoomCoilShortToSupply, Broken::ShortToSupply),
+            (Kind::BoomCoilShortToGround, Broken::ShortToGround),
+        ];
+        let now = broken.into_iter().find(|&(kind, _)| self.scenario.events.has(kind, time_s));
+        self.plant.set_broken(1, 0, now.map(|(_, broken)| broken));
     }
 
     fn row(&self, time_s: f64, [swing, boom, arm, bucket]: [f64; 4], outputs: &Outputs) -> Row {

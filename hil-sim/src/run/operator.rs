@@ -1,11 +1,8 @@
-//! The simulated operator: switches, levers, and the messages that carry them.
+//! The simulated operator: switches, and what the panel's messages ask for.
 
-use firmware::{Inputs, Request};
+use firmware::{Intent, Request};
 
-use crate::scenario::{Events, Scenario, Task};
-
-/// A new command message every this many ticks.
-const MESSAGE_TICKS: u32 = 10;
+use crate::scenario::{Events, Kind, Scenario, Task};
 
 /// The operator of one scenario.
 #[derive(Clone, Debug)]
@@ -13,47 +10,41 @@ pub struct Operator {
     enable_s: f64,
     begin_s: f64,
     task: Task,
-    supply_code: u16,
     events: Events,
-    tick: u32,
-    sent: u8,
+}
+
+/// What the operator does at a moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Doing {
+    /// The enable switch.
+    pub enable: bool,
+    /// The emergency stop is pressed.
+    pub emergency_stop: bool,
+    /// What the messages ask for; `None` when none are sent.
+    pub intent: Option<Intent>,
 }
 
 impl Operator {
     /// Follows the scenario's timetable.
     pub fn new(scenario: &Scenario) -> Self {
-        let full_scale_v = f64::from(scenario.parameters.supply.full_scale_v);
         Self {
             enable_s: scenario.enable_s,
             begin_s: scenario.begin_s,
             task: scenario.task.clone(),
-            // The cast saturates.
-            supply_code: (scenario.supply_v / full_scale_v * 65535.0 + 0.5) as u16,
             events: scenario.events.clone(),
-            tick: 0,
-            sent: 0,
         }
     }
 
-    /// The controller's inputs at `time_s`, called once a tick; `cut_off_closed` is the cut-off's own contact.
-    pub fn inputs(&mut self, time_s: f64, codes: [u16; 4], cut_off_closed: bool) -> Inputs {
-        let last_sent = self.sent;
-        let fresh = self.tick.is_multiple_of(MESSAGE_TICKS);
-        self.tick = self.tick.wrapping_add(1);
-        let mut inputs = Inputs {
-            codes,
-            supply_code: self.supply_code,
-            command_counter: if fresh { last_sent.wrapping_add(1) } else { last_sent },
-            request: if time_s >= self.begin_s { self.task.request() } else { Request::Neutral },
-            levers: self.task.levers(time_s),
-            enable: time_s >= self.enable_s,
-            converters_sound: [true; 2],
-            cut_off_closed,
-            emergency_stop: false,
-            overrun: false,
-        };
-        self.events.apply(time_s, &mut inputs, last_sent);
-        self.sent = inputs.command_counter;
-        inputs
+    /// What the operator does at `time_s`.
+    pub fn at(&self, time_s: f64) -> Doing {
+        let now = |kind| self.events.has(kind, time_s);
+        let working = time_s >= self.begin_s && !now(Kind::Neutral);
+        let request = if working { self.task.request() } else { Request::Neutral };
+        let intent = Intent { request, levers: self.task.levers(time_s) };
+        Doing {
+            enable: time_s >= self.enable_s && !now(Kind::EnableOff),
+            emergency_stop: now(Kind::EmergencyStop),
+            intent: (!now(Kind::CommandLost)).then_some(intent),
+        }
     }
 }

@@ -7,6 +7,7 @@ use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{
     Coil, MotionParameters, PositionSensor, ReachParameters, Supply, SwingSensor, ValveDirection,
 };
+use firmware::valve::coil_stage::CoilStageParameters;
 use kinematics_core::geometry::Stroke;
 use kinematics_core::planning::effort::Piston;
 use kinematics_core::planning::hull::Sphere;
@@ -17,6 +18,7 @@ use super::check::within;
 use super::file::{self, Reading, ScenarioFile};
 use super::{Events, Scenario, Start, Task};
 use crate::machine_file::MachineFile;
+use crate::plant::coil::SolenoidModel;
 use crate::plant::{ActuatorModel, CoilModel};
 
 /// Codes at the ends of a stroke: 0.5 V and 9.5 V of a 10 V converter, so that an open or shorted wire shows.
@@ -29,8 +31,8 @@ const ZERO_CODE: u16 = 32768;
 const SUPPLY_FULL_SCALE_V: f32 = 40.0;
 /// The controller works between these, V.
 const SUPPLY_RANGE_V: [f32; 2] = [9.0, 32.0];
-/// 100 ms without a command is stale.
-const COMMAND_TIMEOUT_TICKS: u16 = 100;
+/// The position sensors' supply, nominally 10 V, on a converter's channel of 10.24 V.
+const SENSOR_SUPPLY: Supply = Supply { full_scale_v: 10.24, min_v: 9.5, max_v: 10.2 };
 
 fn sensor(stroke: Stroke) -> PositionSensor {
     let [min_code, max_code] = END_CODES;
@@ -192,6 +194,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
     let valves = plant.map(|model| {
         [0, 1].map(|d| ValveDirection { dead_band: model.dead_band[d] as f32, full_speed: model.full_speed[d] as f32 })
     });
+    let coil = Coil { full_scale_a: p.coil_full_scale_a as f32, resistance_ohm: p.coil_resistance_ohm as f32 };
     let m = &file.motion;
     let [min_v, max_v] = SUPPLY_RANGE_V;
     let parameters = Parameters {
@@ -200,10 +203,9 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             .swing
             .map_or(SwingSensor::Angle { zero_code: ZERO_CODE }, |s| SwingSensor::Cylinder(sensor(s.stroke))),
         cylinder_sensors: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(sensor),
-        valves,
-        coil: Coil { full_scale_a: p.coil_full_scale_a as f32, resistance_ohm: p.coil_resistance_ohm as f32 },
+        coils: CoilStageParameters::plain(&valves, &coil, p.coil_inductance_h as f32),
         supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
-        command_timeout_ticks: COMMAND_TIMEOUT_TICKS,
+        sensor_supply: SENSOR_SUPPLY,
         diagnosis: diagnosis(&valves, p),
         motion: MotionParameters {
             preview_s: m.preview_s as f32,
@@ -227,7 +229,17 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         task,
         parameters,
         plant,
-        coil: CoilModel { full_scale_a: p.coil_full_scale_a, resistance_ohm: p.coil_resistance_ohm },
+        coil: CoilModel {
+            full_scale_a: p.coil_full_scale_a,
+            winding: SolenoidModel {
+                resistance_ohm: p.coil_resistance_ohm,
+                inductance_h: p.coil_inductance_h,
+                saturation_a: 2.5 * p.coil_full_scale_a,
+                freewheel_v: 0.7,
+                clamp_v: 40.0,
+            },
+            temperature_c: 20.0,
+        },
         supply_v: p.supply_v,
         sensor_noise_m: p.sensor_noise_m,
         events: Events::new(file.event),

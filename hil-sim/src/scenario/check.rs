@@ -45,6 +45,7 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
         ("plant.arm_speed_mps", p.arm_speed_mps, [0.005, 4.0]),
         ("plant.bucket_speed_mps", p.bucket_speed_mps, [0.005, 4.0]),
         ("plant.retract_speed_ratio", p.retract_speed_ratio, [0.25, 1.25]),
+        ("plant.coil_inductance_h", p.coil_inductance_h, [0.005, 0.5]),
         ("plant.coil_full_scale_a", p.coil_full_scale_a, [0.05, 5.0]),
         ("plant.coil_resistance_ohm", p.coil_resistance_ohm, [0.5, 100.0]),
         ("plant.supply_v", p.supply_v, [0.0, 48.0]),

@@ -2,9 +2,7 @@
 
 use serde::Deserialize;
 
-use firmware::{Inputs, Request};
-
-/// What an event does to the controller's inputs while it lasts.
+/// What an event does at the board's connectors while it lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -14,20 +12,30 @@ pub enum Kind {
     EnableOff,
     /// The levers are in neutral.
     Neutral,
-    /// No command arrives: the alive counter stands still.
+    /// The operator's panel sends nothing.
     CommandLost,
-    /// The swing sensor's wire is broken: code 0.
+    /// The swing sensor's wire is broken: 0 V.
     SwingSensorOpen,
-    /// The boom sensor's wire is broken: code 0.
+    /// The boom sensor's wire is broken: 0 V.
     BoomSensorOpen,
-    /// The arm sensor's wire is broken: code 0.
+    /// The arm sensor's wire is broken: 0 V.
     ArmSensorOpen,
-    /// The bucket sensor's wire is broken: code 0.
+    /// The bucket sensor's wire is broken: 0 V.
     BucketSensorOpen,
     /// The supply collapses to 0 V at its measurement.
     SupplyLost,
     /// A tick was late.
     TickOverrun,
+    /// The converter of the position sensors and the supplies does not answer.
+    SensorConverterLost,
+    /// The converter of the coil currents does not answer.
+    CoilConverterLost,
+    /// A coil's wire is off: of the boom's extending solenoid.
+    BoomCoilOpen,
+    /// The wire of the boom's extending solenoid touches the supply.
+    BoomCoilShortToSupply,
+    /// The wire of the boom's extending solenoid touches ground.
+    BoomCoilShortToGround,
 }
 
 /// An event from `at_s` until `until_s`.
@@ -52,21 +60,6 @@ impl Event {
         }
         Ok(())
     }
-
-    fn apply(&self, inputs: &mut Inputs, last_counter: u8) {
-        match self.kind {
-            Kind::EmergencyStop => inputs.emergency_stop = true,
-            Kind::EnableOff => inputs.enable = false,
-            Kind::Neutral => inputs.request = Request::Neutral,
-            Kind::CommandLost => inputs.command_counter = last_counter,
-            Kind::SwingSensorOpen => inputs.codes[0] = 0,
-            Kind::BoomSensorOpen => inputs.codes[1] = 0,
-            Kind::ArmSensorOpen => inputs.codes[2] = 0,
-            Kind::BucketSensorOpen => inputs.codes[3] = 0,
-            Kind::SupplyLost => inputs.supply_code = 0,
-            Kind::TickOverrun => inputs.overrun = true,
-        }
-    }
 }
 
 /// All events of a scenario.
@@ -83,10 +76,8 @@ impl Events {
         Self(events)
     }
 
-    /// Does to `inputs` what the events under way at `time_s` do; `last_counter` is the command counter of the tick before.
-    pub fn apply(&self, time_s: f64, inputs: &mut Inputs, last_counter: u8) {
-        for event in self.0.iter().filter(|e| time_s >= e.at_s && time_s < e.until_s) {
-            event.apply(inputs, last_counter);
-        }
+    /// Whether an event of this kind is under way at `time_s`.
+    pub fn has(&self, kind: Kind, time_s: f64) -> bool {
+        self.0.iter().any(|event| event.kind == kind && time_s >= event.at_s && time_s < event.until_s)
     }
 }

@@ -161,6 +161,7 @@ pub(super) struct Plant {
     pub(super) retract_speed_ratio: f64,
     pub(super) coil_full_scale_a: f64,
     pub(super) coil_resistance_ohm: f64,
+    pub(super) coil_inductance_h: f64,
     pub(super) supply_v: f64,
     pub(super) sensor_noise_m: f64,
 }

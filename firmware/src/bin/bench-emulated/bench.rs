@@ -27,6 +27,7 @@ use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, P
 use stm32f4::stm32f405::Peripherals;
 
 use crate::coils::coils;
+use crate::diagnosis::diagnosis;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
@@ -325,6 +326,7 @@ fn main() -> ! {
         black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     coils(&mut out, s);
+    diagnosis(&mut out, s);
     angles(&mut out, s);
     bits(&mut out);
     succeed()

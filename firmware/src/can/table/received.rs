@@ -7,8 +7,11 @@ use crate::can::signal::{Scale, Signal};
 /// Without a new message for so long a received value is stale, ms.
 pub const TIMEOUT_MS: u16 = 100;
 
+/// Period of the operator's and the pressure sensors' messages, ms.
+pub const PERIOD_MS: u16 = 20;
+
 const fn command(name: &'static str, pgn: u32, about: &'static str) -> Header {
-    let rate = Rate::Every { ms: 20, phase_ms: 0 };
+    let rate = Rate::Every { ms: PERIOD_MS, phase_ms: 0 };
     Header { name, about, pgn, priority: 3, sender: Sender::Operator, rate, bytes: 8, protected: true }
 }
 
