@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use cross_tests::rig::{is_safe, scenario, scenario_names, workspace};
+use firmware::valve::coil_fault::{CoilFault, FaultyCoil};
+use firmware::valve::interlock::Side;
 use firmware::{Fault, State};
 use hil_sim::place::Host;
 use hil_sim::run::{Log, Outcome, Run, Summary};
@@ -82,12 +84,16 @@ fn run_with_true_sensors(spoilt: &Scenario) -> (Log, Summary) {
     (log, summary)
 }
 
+/// The boom's extending solenoid has lost a wire.
+const OPEN: FaultyCoil = FaultyCoil { spool: 1, side: Side::Extend, fault: CoilFault::Open };
+
 #[test]
 fn a_fault_scenario_ends_in_zero_current_and_standstill_with_the_fault_named() {
     let cases = [
         ("dig-emergency-stop", Fault::EmergencyStop, 9.0, 0.0),
         ("dig-sensor-open", Fault::Sensor(Cylinder::Arm), 6.0, 0.0),
-        // The last message came at 11.99 s; 100 ms later the command is stale.
+        ("dig-coil-open", Fault::Coil(OPEN), 4.5, 0.05),
+        // The last message came at 11.98 s; 100 ms later the command is stale.
         ("dig-command-lost", Fault::CommandStale, 12.0, 0.1),
     ];
     for (name, fault, from_s, within_s) in cases {
