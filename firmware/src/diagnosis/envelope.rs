@@ -75,17 +75,6 @@ impl Span {
     }
 }
 
-/// What the model says now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Expected {
-    /// Lowest speed.
-    pub(super) low: f32,
-    /// Highest speed.
-    pub(super) high: f32,
-    /// The speed there must be, if nothing holds the actuator back.
-    pub(super) sure: f32,
-}
-
 /// One actuator's model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Envelope {
@@ -100,9 +89,14 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// One round under this command; `turned` at the end of every span.
+    /// The speed there must be, if nothing holds the actuator back.
+    pub(super) fn sure(&self) -> f32 {
+        self.sure
+    }
+
+    /// One round under this command, `turned` at the end of every span: lowest and highest speed.
     #[inline(always)]
-    pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> Expected {
+    pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> (f32, f32) {
         let command_now = Span { low: command, high: command };
         self.now = self.now.and(command_now);
         let Span { low, high } = self.now.and(self.before);
@@ -128,10 +122,6 @@ impl Envelope {
         self.sure += (must - self.sure) * model.lag_share;
         let bounce = model.calmer * command;
         let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
-        Expected {
-            low: -(model.over * back + model.ring * out - bounce_out),
-            high: model.over * out + model.ring * back - bounce_back,
-            sure: self.sure,
-        }
+        (-(model.over * back + model.ring * out - bounce_out), model.over * out + model.ring * back - bounce_back)
     }
 }

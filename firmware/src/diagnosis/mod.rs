@@ -1,8 +1,8 @@
 //! Between sensing and motion: whether each actuator's sensor can be believed, and whether the actuator does what it was told.
 //!
-//! Every tick each code is held against the last: a change that no motion explains is a jump. Every fourth tick, a *round*, one actuator
-//! after the other is looked at closely: its measured speed against the [delay model](DiagnosisParameters), and whether its sensor
-//! follows motion that must have happened. Each actuator is judged alone; what is good of one says nothing of another.
+//! Every tick each code is held against the last: a change that no motion explains is a jump. In a *round* of eight ticks one actuator after
+//! the other is looked at closely, two ticks each: first its measured speed against the [delay model](DiagnosisParameters), then
+//! whether its sensor follows motion that must have happened. Each actuator is judged alone; what is good of one says nothing of another.
 
 mod channel;
 mod envelope;
@@ -20,16 +20,16 @@ use stuck::Free;
 
 pub use parameters::{ActuatorLimits, DiagnosisParameters};
 
-/// Ticks of a round: one for each actuator.
-const ROUND_TICKS: u8 = 4;
+/// Ticks of a round: two for each actuator.
+const ROUND_TICKS: u8 = 8;
 /// The same, s.
-const ROUND_S: f32 = 4.0 * TICK_S;
-/// So many rounds outside the envelope, or standing though free, are a fault: 52 ms.
-const OUTSIDE_ROUNDS: u8 = 13;
-/// So many rounds without any change of a noisy code are no chance: 48 ms.
+const ROUND_S: f32 = 8.0 * TICK_S;
+/// So many rounds outside the envelope, or standing though free, are a fault: 56 ms.
+const OUTSIDE_ROUNDS: u8 = 7;
+/// So many rounds without any change of a noisy code are no chance: 96 ms.
 const QUIET_ROUNDS: u8 = 12;
-/// A jump stays a fault for so many rounds after the last: 100 ms.
-const JUMP_ROUNDS: u8 = 25;
+/// A jump stays a fault for so many rounds after the last: 104 ms.
+const JUMP_ROUNDS: u8 = 13;
 
 const ACTUATORS: [Cylinder; 4] = [Cylinder::Swing, Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket];
 
@@ -46,8 +46,7 @@ pub struct Diagnosis {
     model: Model,
     /// What the valves were last told.
     sent: [f32; 4],
-    /// Pressures that move an actuator without stalling it, Pa.
-    free_pa: [f32; 2],
+    free: Free,
     /// Ticks of this round.
     tick: u8,
     /// Rounds until the span of commands under way ends.
@@ -66,7 +65,7 @@ impl Diagnosis {
             channels: p.actuators.map(|limits| Channel::new(&limits, units.next().unwrap_or(1.0))),
             model,
             sent: [0.0; 4],
-            free_pa: [p.supplied_pa, p.stalled_pa],
+            free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },
             tick: 0,
             until_turn: model.span_rounds,
             begun: false,
@@ -82,11 +81,15 @@ impl Diagnosis {
         for (channel, code) in self.channels.iter_mut().zip(codes) {
             channel.sample(*code);
         }
-        let number = usize::from(self.tick);
-        let free = if number == 0 { [None; 2] } else { self.free(pressures.get(number - 1)) };
+        let number = usize::from(self.tick / 2);
         let turned = self.until_turn == 0;
         if let (Some(channel), Some(command)) = (self.channels.get_mut(number), self.sent.get(number)) {
-            channel.look(&self.model, *command, turned, &free);
+            if self.tick.is_multiple_of(2) {
+                channel.measure(&self.model, *command, turned);
+            } else {
+                // The swing, number 0, has none.
+                channel.look(self.free, number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder)));
+            }
         }
         self.tick += 1;
         if self.tick == ROUND_TICKS {
@@ -133,13 +136,5 @@ impl Diagnosis {
             Some((channel.wrong, fault))
         });
         faults.min_by_key(|(wrong, _)| wrong.map(|wrong| wrong as u8)).map(|(_, fault)| fault)
-    }
-
-    /// Whether each side's pressure moves its cylinder without stalling it.
-    #[inline(always)]
-    fn free(&self, pressures: Option<&[Option<f32>; 2]>) -> Free {
-        let [supplied, stalled] = self.free_pa;
-        let free = |pressure: Option<f32>| pressure.map(|p| p >= supplied && p < stalled);
-        pressures.map_or([None; 2], |sides| sides.map(free))
     }
 }

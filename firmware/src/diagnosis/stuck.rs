@@ -13,8 +13,15 @@ pub(super) struct StuckLimits {
     pub(super) creep: f32,
 }
 
-/// Pressures of the driven sides, as far as they are known: extending, retracting; each within what moves without stalling.
-pub(super) type Free = [Option<bool>; 2];
+/// Pressures of a driven side that move an actuator without stalling it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Free {
+    pub(super) supplied_pa: f32,
+    pub(super) stalled_pa: f32,
+}
+
+/// Head and rod side, as far as they are known, Pa.
+pub(super) type Sides<'a> = Option<&'a [Option<f32>; 2]>;
 
 /// What is followed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,7 +45,14 @@ fn far(x: f32, limit: f32) -> bool {
 impl Stuck {
     /// One round: the model's `sure` speed, the sensor's code, its change, and a code's worth of travel. Whether it is stuck.
     #[inline(always)]
-    pub(super) fn follow(&mut self, limits: &StuckLimits, sure: f32, codes: [u16; 2], unit: f32, free: &Free) -> bool {
+    pub(super) fn follow(
+        &mut self,
+        limits: &StuckLimits,
+        sure: f32,
+        codes: [u16; 2],
+        unit: f32,
+        (free, sides): (Free, Sides<'_>),
+    ) -> bool {
         let [before, code] = codes;
         let ahead = sure * ROUND_S;
         if before == code {
@@ -55,14 +69,15 @@ impl Stuck {
             return silent;
         }
         self.travel += ahead;
-        silent || (far(self.travel, limits.travel) && self.stands_free(sure, free))
+        silent || (far(self.travel, limits.travel) && self.stands_free(sure, free, sides))
     }
 
     /// Standing though nothing holds it back, long enough. Not inlined: it is for faults and stalls.
     #[inline(never)]
-    fn stands_free(&mut self, sure: f32, &[extending, retracting]: &Free) -> bool {
-        let free = if sure > 0.0 { extending } else { retracting };
-        self.free = if free == Some(true) { self.free.saturating_add(1) } else { 0 };
+    fn stands_free(&mut self, sure: f32, free: Free, sides: Sides<'_>) -> bool {
+        let driven = sides.and_then(|[head, rod]| if sure > 0.0 { *head } else { *rod });
+        let moves = driven.is_some_and(|pressure| pressure >= free.supplied_pa && pressure < free.stalled_pa);
+        self.free = if moves { self.free.saturating_add(1) } else { 0 };
         self.free >= OUTSIDE_ROUNDS
     }
 }

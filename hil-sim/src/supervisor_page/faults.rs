@@ -41,8 +41,8 @@ motion. The tests named below print what they measured, and the wait before it.
 
 A healthy actuator starts 0 to 250 ms after its command, follows it with a lag of up to 0.1 s, overshoots by up to three quarters, and
 runs on for up to 2 s after that dead time; of a released speed three quarters may ring back, of a standing one half may bounce back off soil.
-Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 52 ms is motion *uncommanded* or *against the command*. The slowest
-healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 48 ms and 5 mm of predicted
+Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 56 ms is motion *uncommanded* or *against the command*. The slowest
+healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 96 ms and 5 mm of predicted
 travel is *stuck*, a living sensor's noise never stands still so long; one that keeps its noise is stuck when the driven side's pressure is
 between 2 and 15 MPa, which moves a cylinder but stalls none. `DiagnosisParameters` holds all of these; its defaults follow from the valves'
 full speeds and the sensors' noise.
