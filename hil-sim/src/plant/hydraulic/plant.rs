@@ -3,6 +3,9 @@
 //! Rates are stepped with the pressures of the moment, then the oil and the positions with the new rates: a staggered step, which neither damps nor
 //! feeds the oscillation of oil and mass. What is stiff (openings, friction, soil) is implicit.
 
+// Functions and sides index several arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 use kinematics_core::{PoseError, Vec2};
 
 use super::body::{Body, Loads, Posture, TipResistance};
