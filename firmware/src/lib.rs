@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod apart;
 pub mod board;
 mod bytes;
 pub mod calibration;
@@ -22,10 +23,13 @@ mod ecu;
 pub mod fault;
 pub mod fence;
 pub mod frame;
+pub mod grade;
 pub mod io;
+pub mod law;
 pub mod motion;
 pub mod moves;
 pub mod parameters;
+pub mod path;
 pub mod pose;
 pub mod sensing;
 #[cfg(feature = "simulated")]

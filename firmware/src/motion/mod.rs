@@ -1,12 +1,23 @@
 //! Fourth stage: what the operator wants → actuator speeds. One file a mode: `dig` follows a trajectory, `planned` a move, `reach` goes to
-//! a target past obstacles, `levers` obeys.
+//! a target past obstacles, `levers` obeys; `path`, `grade` and `tip_velocity` share the law of `coordinated`.
 
+mod coordinated;
 mod creep;
 mod delay;
 mod dig;
+mod grade;
+mod law;
 mod levers;
+mod limits;
+mod modes;
+mod path;
 mod planned;
+mod profile;
 mod reach;
+mod resolve;
+mod slew;
+mod sum;
+mod tip_velocity;
 mod tracker;
 
 use core::borrow::BorrowMut;
@@ -14,16 +25,19 @@ use core::cell::Cell;
 
 use kinematics_core::{Cylinders, Machine, Pose};
 
+use crate::can::command::Slope;
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
-use dig::DigFollower;
+use dig::{DigFollower, Seen};
 use levers::Levers;
+use modes::Modes;
 use planned::MoveFollower;
 use reach::ReachFollower;
+use slew::Slew;
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,19 +57,22 @@ impl Wanted {
     }
 }
 
-/// What following a planned move or reaching past obstacles needs of memory: about 9 KiB, filled in place. An image gives it as a
+/// What following a dig or a planned move or reaching past obstacles needs of memory: about 12 KiB, filled in place. An image gives it as a
 /// static, so that it never lies on the stack.
 #[derive(Clone, Debug)]
 pub struct Followers {
+    seen: Seen,
     planned: MoveFollower,
     /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
     reach: Option<Cell<ReachFollower>>,
+    /// What the coordinated modes share; the cell for the same reason.
+    modes: Option<Cell<Modes>>,
 }
 
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { planned: MoveFollower::new(), reach: None }
+        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None, modes: None }
     }
 
     /// Plans what the parameters ask for.
@@ -63,8 +80,18 @@ impl Followers {
         if let Some(planned) = &p.planned_move {
             self.planned.plan(&p.motion, machine, planned).map_err(ParameterError::Move)?;
         }
+        self.plan_modes(p, machine)?;
         self.reach = None;
         p.reach.as_ref().map_or(Ok(()), |reach| self.plan_reach(reach, p, machine))
+    }
+
+    #[inline(never)]
+    fn plan_modes(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        self.modes = None;
+        if let Some(law) = &p.motion.law {
+            self.modes = Some(Cell::new(Modes::new(law, p, machine)?));
+        }
+        Ok(())
     }
 
     // Not inlined, so that the stack holds either's planning but not both.
@@ -91,6 +118,7 @@ impl Default for Followers {
 pub struct Motion<F = Followers> {
     dig: Option<DigFollower>,
     levers: Levers,
+    slew: Option<Slew>,
     followers: F,
     /// The request of the last tick; another one starts over.
     request: Request,
@@ -108,16 +136,25 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         mut followers: F,
     ) -> Result<Self, ParameterError> {
         followers.borrow_mut().plan(p, machine)?;
+        let seen = &mut followers.borrow_mut().seen;
         Ok(Self {
-            dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
+            dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, seen)),
             levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
+            slew: p.motion.law.as_ref().map(Slew::new),
             followers,
             request: Request::Neutral,
         })
     }
 
-    /// Back to holding: whatever is asked for next starts over.
+    /// Back to standing still: whatever is asked for next starts over.
     pub(crate) fn reset(&mut self) {
+        self.start_over();
+        if let Some(slew) = &mut self.slew {
+            slew.reset();
+        }
+    }
+
+    fn start_over(&mut self) {
         self.request = Request::Neutral;
         if let Some(dig) = &mut self.dig {
             dig.reset();
@@ -126,6 +163,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         followers.planned.reset();
         if let Some(reach) = &mut followers.reach {
             reach.get_mut().reset();
+        }
+        if let Some(modes) = &mut followers.modes {
+            modes.get_mut().reset();
         }
     }
 
@@ -137,26 +177,43 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         &mut self,
         machine: &Machine<f32>,
         running: bool,
-        intent: &Intent,
+        (intent, slope): (&Intent, Option<Slope>),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        if !running || intent.request != self.request {
-            self.reset();
-        }
         if !running {
+            self.reset();
             return Ok(Wanted::hold(lengths));
         }
+        if intent.request != self.request {
+            self.start_over();
+        }
         self.request = intent.request;
-        match intent.request {
-            Request::Neutral => Ok(Wanted::hold(lengths)),
-            Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
-            Request::Move => self.followers.borrow_mut().planned.follow(lengths),
+        let wanted = match intent.request {
+            Request::Neutral => Wanted::hold(lengths),
+            Request::Dig => {
+                let seen = &mut self.followers.borrow_mut().seen;
+                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, seen)?
+            }
+            Request::Move => self.followers.borrow_mut().planned.follow(lengths)?,
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;
-                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)
+                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
             }
-            Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
-        }
+            Request::Levers => {
+                let asked = self.levers.speeds(intent.levers);
+                let modes = self.followers.borrow_mut().modes.as_mut();
+                let speeds = modes.map_or(asked, |modes| modes.get_mut().cushion(lengths, asked));
+                Wanted { speeds, ..Wanted::hold(lengths) }
+            }
+            Request::TipVelocity | Request::Grade | Request::Path => {
+                let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
+                let arm_mps = self.levers.speeds(intent.levers).arm;
+                let modes = self.followers.borrow_mut().modes.as_mut().ok_or(Fault::NotConfigured)?;
+                modes.get_mut().follow(machine, (intent, arm_mps, slope), speeds, pose, lengths)?
+            }
+        };
+        let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
+        Ok(Wanted { speeds, ..wanted })
     }
 }

@@ -11,7 +11,7 @@ use firmware::io::{SPOOLS, Solenoids};
 use coil::{Broken, Drive, Solenoid, SolenoidModel};
 use hydraulic::{HydraulicModel, HydraulicPlant, StartError};
 
-pub use actuator::{Actuator, ActuatorModel};
+pub use actuator::{Actuator, ActuatorModel, Defect};
 pub use swing::SwingDrive;
 
 /// One step of the plant, s: one control tick.
@@ -107,6 +107,14 @@ impl Plant {
     /// Breaks a solenoid, or repairs it.
     pub fn set_broken(&mut self, spool: usize, side: usize, broken: Option<Broken>) {
         self.solenoids[spool][side].broken = broken;
+    }
+
+    /// Spoils a spool or its oil, or repairs it.
+    pub fn set_defect(&mut self, spool: usize, defect: Option<Defect>) {
+        match &mut self.machine {
+            Machine::Speeds(actuators) => actuators[spool].defect = defect,
+            Machine::Hydraulic(plant) => plant.set_defect(spool, defect),
+        }
     }
 
     /// Pressures of boom, arm and bucket, \[head, rod\], Pa; `None` of a plant without oil.

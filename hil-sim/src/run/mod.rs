@@ -1,6 +1,7 @@
 //! Running a scenario: plant, operator and controller, tick by tick.
 
 mod bus;
+mod injector;
 mod log;
 mod operator;
 mod reach;
@@ -24,6 +25,7 @@ use crate::travel::{Violation, violations};
 use bus::{Bus, Said};
 use wiring::{Measured, Wiring};
 
+pub use injector::{Healthy, Injector};
 pub use log::{FaultSeen, Log, Row, StopHit};
 pub use operator::{Doing, Operator};
 pub use reach::ReachSeen;
@@ -53,6 +55,12 @@ pub enum RunError {
     /// The operator asks for a move that the parameters do not hold.
     #[error("`parameters.planned_move`: the operator asks for a move, but there is none")]
     NoMove,
+    /// The operator asks for a path that the parameters do not hold.
+    #[error("`parameters.path`: the operator asks for a path, but there is none")]
+    NoPath,
+    /// The machine cannot stand at the path's first knot.
+    #[error("`knot[0]`: {0}")]
+    PathStart(kinematics_core::PoseError<f64>),
     /// The machine cannot stand at the move's start.
     #[error("`move`: at the start: {0}")]
     MoveStart(kinematics_core::PoseError<f64>),
@@ -104,7 +112,20 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// The place was lost.
-    pub fn complete(mut self, place: &mut dyn Place, mut progress: impl FnMut(u32, u32)) -> Result<Log, PlaceError> {
+    pub fn complete(self, place: &mut dyn Place, progress: impl FnMut(u32, u32)) -> Result<Log, PlaceError> {
+        self.complete_with(place, &mut Healthy, progress)
+    }
+
+    /// The same with something that spoils it.
+    ///
+    /// # Errors
+    /// The place was lost.
+    pub fn complete_with(
+        mut self,
+        place: &mut dyn Place,
+        injector: &mut dyn Injector,
+        mut progress: impl FnMut(u32, u32),
+    ) -> Result<Log, PlaceError> {
         let ticks = (self.scenario.duration_s * f64::from(TICKS_PER_S) + 0.5) as u32;
         let crc = Crc::<u64>::new(&CRC_64_XZ);
         let mut hash = crc.digest();
@@ -119,8 +140,9 @@ impl<'a> Run<'a> {
             let frames = self.bus.frames(&Said { intent: doing.intent, slope_deg: [0.0; 2], pressures_pa });
             let supply_v = self.scenario.supply_v;
             let measured = Measured { positions, solenoids: self.plant.solenoids(), supply_v, cut_off_closed };
-            let wires = self.wiring.wires(&measured, &doing, frames, &self.scenario.events, time_s);
+            let mut wires = self.wiring.wires(&measured, &doing, frames, &self.scenario.events, time_s);
 
+            injector.wires(time_s, &mut wires);
             let reply = place.tick(&wires)?;
             // The relay's contact follows within the tick.
             cut_off_closed = reply.pins.cut_off_closed;
@@ -131,6 +153,7 @@ impl<'a> Run<'a> {
             log.stops(time_s, &held);
             log.push(self.row(time_s, positions, &reply.outputs), reply.timing);
             self.break_coils(time_s);
+            injector.plant(time_s, &mut self.plant, &reply.pins);
             self.plant.step(&Driven { duties: reply.pins.duties, cut_off_closed, supply_v });
             progress(tick + 1, ticks);
         }
@@ -183,7 +206,13 @@ fn start(
     swing: SwingDrive,
 ) -> Result<[f64; 4], RunError> {
     match (&scenario.task, dig) {
-        (Task::Levers { start, .. } | Task::Reach { start }, _) => {
+        (
+            Task::Levers { start, .. }
+            | Task::Reach { start }
+            | Task::Grade { start, .. }
+            | Task::TipVelocity { start, .. },
+            _,
+        ) => {
             let swing = swing.position(start.swing_deg.to_radians()).map_err(RunError::Swing)?;
             Ok([swing, start.boom_m, start.arm_m, start.bucket_m])
         }
@@ -193,6 +222,14 @@ fn start(
             let tip = PlaneTip { reach, height, pitch: Rotor::from_degrees(planned.start_pitch_deg) };
             let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&tip).map_err(RunError::MoveStart)?;
             Ok([swing.position(0.0).map_err(RunError::Swing)?, boom, arm, bucket])
+        }
+        (Task::Path, _) => {
+            let path = scenario.parameters.path.as_ref().ok_or(RunError::NoPath)?;
+            let [Some(first), ..] = path.knots else { return Err(RunError::NoPath) };
+            let tip = PlaneTip { reach: first.x_m, height: first.z_m, pitch: Rotor::from_degrees(first.pitch_deg) };
+            let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&tip).map_err(RunError::PathStart)?;
+            let swing = swing.position(first.swing_deg.to_radians()).map_err(RunError::Swing)?;
+            Ok([swing, boom, arm, bucket])
         }
         (Task::Dig, dig) => {
             let dig = dig.ok_or(RunError::NoDig)?;
