@@ -15,6 +15,7 @@ pub mod pose;
 mod progress;
 pub mod run;
 pub mod scenes;
+pub mod score;
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -47,6 +48,8 @@ enum Command {
     Run(run::RunArgs),
     /// Try fences with random operators on the simulated machine: whole linkage, tip only, none
     Fence(fence::FenceArgs),
+    /// Score the motion on drawn plants: the true tip against the path, open loop, proportional alone, uncalibrated, half the flow
+    Score(score::ScoreArgs),
     /// Break everything that can break, in every situation, thousands of times: what is seen, how soon, and the tip's way to standstill
     Faults(faults::FaultsArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
@@ -95,6 +98,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
+        Ok(Hil { command: Command::Score(args) }) => score::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),

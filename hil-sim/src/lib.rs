@@ -14,6 +14,7 @@
 //! - [`faults`] — the fault campaign: what is seen, how soon, and how far the tip still goes;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
+//! - [`score`] — the motion on plants that no tuning has seen;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
@@ -40,5 +41,6 @@ pub mod report;
 pub mod run;
 pub mod scenario;
 pub mod scenes;
+pub mod score;
 mod toml_text;
 pub mod travel;
