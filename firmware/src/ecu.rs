@@ -67,7 +67,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let fence =
             p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.coils.valves())).transpose()?;
         Ok(Self {
-            diagnosis: Diagnosis::new(&p.diagnosis, sensing.units()),
+            diagnosis: Diagnosis::new(&p.diagnosis, sensing.views()),
             sensing,
             motion: Motion::new(p, &machine, dig, followers)?,
             fence,

@@ -40,6 +40,27 @@ impl Scale {
     }
 }
 
+/// A sensor's steps, and where its actuator may be held by a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorView {
+    /// A code's worth of travel, m or rad.
+    pub unit: f32,
+    /// Beyond these codes it is near an end of its stroke: within a thirty-second of it.
+    pub stops: [u16; 2],
+}
+
+impl Scale {
+    fn view(&self) -> SensorView {
+        // The casts saturate.
+        let (min, span) = (self.min_code as u16, ((self.max_m - self.min_m) / self.metres_per_code) as u16);
+        let near = span / 32;
+        SensorView {
+            unit: self.metres_per_code,
+            stops: [min.saturating_add(near), min.saturating_add(span).saturating_sub(near)],
+        }
+    }
+}
+
 /// How the swing is read.
 #[derive(Clone, Copy, Debug)]
 enum SwingScale {
@@ -87,13 +108,13 @@ impl Sensing {
         })
     }
 
-    /// What a code of each sensor is worth (swing, boom, arm, bucket): m, of a swing encoder rad.
-    pub fn units(&self) -> [f32; 4] {
+    /// Each sensor as the diagnosis sees it: swing, boom, arm, bucket.
+    pub fn views(&self) -> [SensorView; 4] {
         let swing = match &self.swing {
-            SwingScale::Angle { .. } => core::f32::consts::TAU / 65536.0,
-            SwingScale::Cylinder { scale, .. } => scale.metres_per_code,
+            SwingScale::Angle { .. } => SensorView { unit: core::f32::consts::TAU / 65536.0, stops: [0, u16::MAX] },
+            SwingScale::Cylinder { scale, .. } => scale.view(),
         };
-        let [boom, arm, bucket] = self.cylinders.each_ref().map(|scale| scale.metres_per_code);
+        let [boom, arm, bucket] = self.cylinders.each_ref().map(Scale::view);
         [swing, boom, arm, bucket]
     }
 

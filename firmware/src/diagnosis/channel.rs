@@ -5,6 +5,7 @@ use super::parameters::ActuatorLimits;
 use super::stuck::{Free, Sides, Stuck, StuckLimits};
 use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
 use crate::TICK_S;
+use crate::sensing::SensorView;
 
 /// Share of the measured speed that a round keeps: a time constant of five rounds.
 const KEPT: f32 = 0.8;
@@ -55,7 +56,7 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    pub(super) fn new(limits: &ActuatorLimits, unit: f32) -> Self {
+    pub(super) fn new(limits: &ActuatorLimits, SensorView { unit, stops }: SensorView) -> Self {
         let [out, back] = limits.full_speed;
         let (slower, faster) = if out < back { (out, back) } else { (back, out) };
         // The cast saturates, far below half of all codes for any sensible sensor.
@@ -80,6 +81,7 @@ impl Channel {
                 travel: limits.stuck_travel,
                 noisy: limits.noise >= NOISE_CODES * unit,
                 creep: 0.1 * slower,
+                stops,
             },
             stuck: Stuck::default(),
             moving: false,

@@ -14,6 +14,7 @@ use kinematics_core::Cylinder;
 use crate::TICK_S;
 use crate::fault::Fault;
 use crate::io::Speeds;
+use crate::sensing::SensorView;
 use channel::{Channel, Wrong};
 use envelope::Model;
 use stuck::Free;
@@ -32,6 +33,9 @@ const QUIET_ROUNDS: u8 = 12;
 const JUMP_ROUNDS: u8 = 13;
 
 const ACTUATORS: [Cylinder; 4] = [Cylinder::Swing, Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket];
+
+/// Of no sensor.
+const NO_VIEW: SensorView = SensorView { unit: 1.0, stops: [0, u16::MAX] };
 
 /// Cylinder pressures, Pa, as far as they are valid: boom, arm, bucket, each head then rod.
 pub type Pressures = [[Option<f32>; 2]; 3];
@@ -57,12 +61,12 @@ pub struct Diagnosis {
 
 impl Diagnosis {
     /// Of valid parameters, and what a code of each sensor is worth (swing, boom, arm, bucket), m or rad.
-    pub fn new(p: &DiagnosisParameters, units: [f32; 4]) -> Self {
-        let mut units = units.into_iter();
+    pub fn new(p: &DiagnosisParameters, views: [SensorView; 4]) -> Self {
+        let mut views = views.into_iter();
         let model = Model::new(p);
         Self {
-            // As many units as actuators.
-            channels: p.actuators.map(|limits| Channel::new(&limits, units.next().unwrap_or(1.0))),
+            // As many sensors as actuators.
+            channels: p.actuators.map(|limits| Channel::new(&limits, views.next().unwrap_or(NO_VIEW))),
             model,
             sent: [0.0; 4],
             free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },

@@ -11,6 +11,8 @@ pub(super) struct StuckLimits {
     pub(super) noisy: bool,
     /// A slower motion may hide in the dead band.
     pub(super) creep: f32,
+    /// Beyond these codes a stop or its cushion may hold it.
+    pub(super) stops: [u16; 2],
 }
 
 /// Pressures of a driven side that move an actuator without stalling it.
@@ -69,7 +71,9 @@ impl Stuck {
             return silent;
         }
         self.travel += ahead;
-        silent || (far(self.travel, limits.travel) && self.stands_free(sure, free, sides))
+        let [low, high] = limits.stops;
+        let held = code < low || code > high;
+        silent || (!held && far(self.travel, limits.travel) && self.stands_free(sure, free, sides))
     }
 
     /// Standing though nothing holds it back, long enough. Not inlined: it is for faults and stalls.
