@@ -1,4 +1,7 @@
-//! The whole application: one tick from inputs to outputs.
+//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `mount` the change of the bucket.
+
+mod mount;
+mod serve;
 
 use core::borrow::BorrowMut;
 
@@ -13,10 +16,13 @@ use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
+use crate::service::Service;
 use crate::supervisor::{Gate, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
-use crate::valve::coil_stage::CoilStage;
+use crate::valve::coil_stage::{CoilStage, CoilsDriven};
+
+use mount::Buckets;
 
 /// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
 /// in an image, by reference.
@@ -33,6 +39,8 @@ pub struct Ecu<F = Followers> {
     tick: u32,
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
+    service: Service,
+    buckets: Option<Buckets>,
 }
 
 impl Ecu {
@@ -73,11 +81,18 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             tick: 0,
             lengths: NO_LENGTHS,
             pose: NO_POSE,
+            service: Service::new(p),
+            buckets: None,
         })
     }
 
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
+        if self.service.attends(inputs)
+            && let Some(outputs) = self.serve(inputs)
+        {
+            return outputs;
+        }
         let supply_v = self.sensing.supply_v(inputs);
         let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
 
@@ -96,12 +111,24 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         }
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
+        self.outputs(gate, watched.stage_fault, &wanted, &fenced, &driven)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        &mut self,
+        gate: Gate,
+        stage_fault: Option<Fault>,
+        wanted: &Wanted,
+        fenced: &Fenced,
+        driven: &CoilsDriven,
+    ) -> Outputs {
         let outputs = Outputs {
             tick: self.tick,
             state: self.supervisor.state(),
             fault: self.supervisor.fault(),
             cut_off_closed: gate == Gate::Open,
-            pose_valid: !matches!(watched.stage_fault, Some(Fault::Sensor(_) | Fault::Geometry)),
+            pose_valid: !matches!(stage_fault, Some(Fault::Sensor(_) | Fault::Geometry)),
             lengths: self.lengths,
             pose: self.pose,
             dig_tick: wanted.dig_tick,

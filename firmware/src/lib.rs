@@ -28,6 +28,7 @@ pub mod moves;
 pub mod parameters;
 pub mod pose;
 pub mod sensing;
+pub mod service;
 #[cfg(feature = "simulated")]
 pub mod simulated;
 pub mod store;

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
+use crate::service::JogParameters;
 use crate::travel::Violation;
 use crate::valve::coil_stage::CoilStageParameters;
 
@@ -101,6 +102,8 @@ pub struct Parameters {
     pub sensor_supply: Supply,
     /// Motion.
     pub motion: MotionParameters,
+    /// The service jog.
+    pub jog: JogParameters,
     /// The dig, where there is one.
     pub dig: Option<DigParameters>,
     /// The fence, where there is one.
@@ -240,6 +243,7 @@ impl Parameters {
         let [full_scale, min, max] = ["sensor_supply.full_scale_v", "sensor_supply.min_v", "sensor_supply.max_v"];
         self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
         self.motion.validate()?;
+        self.jog.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
         self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;

@@ -34,5 +34,6 @@ pub mod report;
 pub mod run;
 pub mod scenario;
 pub mod scenes;
+pub mod service;
 mod toml_text;
 pub mod travel;

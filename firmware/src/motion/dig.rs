@@ -42,6 +42,10 @@ impl DigFollower {
         }
     }
 
+    pub(super) fn dig(&self) -> &Dig<f32> {
+        &self.dig
+    }
+
     /// Back to holding: the next dig starts over.
     pub(super) fn reset(&mut self) {
         self.mode = Mode::Hold;

@@ -116,6 +116,19 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         })
     }
 
+    /// The dig, where there is one.
+    pub(crate) fn dig(&self) -> Option<&Dig<f32>> {
+        self.dig.as_ref().map(DigFollower::dig)
+    }
+
+    /// Plans move and target anew, for another geometry.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        self.followers.borrow_mut().plan(p, machine)
+    }
+
     /// Back to holding: whatever is asked for next starts over.
     pub(crate) fn reset(&mut self) {
         self.request = Request::Neutral;

@@ -1,5 +1,7 @@
 //! One spool: two directions, their interlock, and their watches.
 
+mod at_current;
+
 use super::coil_fault::CoilFault;
 use super::coil_stage::{CoilStageParameters, SpoolParameters};
 use super::coil_watch::{CoilWatch, Given, Suspicion, WatchLimits};

@@ -6,6 +6,7 @@ use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{
     Coil, MotionParameters, PositionSensor, ReachParameters, Supply, SwingSensor, ValveDirection,
 };
+use firmware::service::JogParameters;
 use firmware::valve::coil_stage::CoilStageParameters;
 use kinematics_core::geometry::Stroke;
 use kinematics_core::planning::effort::Piston;
@@ -202,6 +203,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             start_tolerance_m: m.start_tolerance_m as f32,
             following_error_m: m.following_error_m as f32,
         },
+        jog: JogParameters { max_current_a: file.jog.map(|jog| jog.max_current_a as f32) },
         dig: file.dig.as_ref().map(dig),
         fence: file.fence.as_ref().map(|fence| fence.parameters(&machine, p.dead_time_s, p.spool_lag_s)).transpose()?,
         planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),

@@ -72,7 +72,7 @@ impl Events {
         self.0.is_empty()
     }
 
-    pub(super) fn new(events: Vec<Event>) -> Self {
+    pub(crate) fn new(events: Vec<Event>) -> Self {
         Self(events)
     }
 
