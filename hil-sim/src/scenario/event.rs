@@ -72,7 +72,7 @@ impl Events {
         self.0.is_empty()
     }
 
-    pub(crate) fn new(events: Vec<Event>) -> Self {
+    pub(super) fn new(events: Vec<Event>) -> Self {
         Self(events)
     }
 

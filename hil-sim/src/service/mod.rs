@@ -72,7 +72,7 @@ impl Workshop {
             pins: None,
             supply_v: scenario.supply_v,
             cut_off_closed: false,
-            events: Events::new(Vec::new()),
+            events: Events::default(),
             bus: Bus::default(),
             wiring: Wiring::new(&scenario.parameters, swing, scenario.sensor_noise_m, seed),
             ticks: 0,
