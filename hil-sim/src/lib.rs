@@ -6,10 +6,12 @@
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
+//! - [`elf`] — what a linked image holds, who calls whom in it, and what stack that takes;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
 //! - [`record`] — the controller's parameter record as a file;
+//! - [`faults`] — the fault campaign: what is seen, how soon, and how far the tip still goes;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
@@ -21,6 +23,8 @@
 pub mod cli;
 pub mod coil_trial;
 pub mod effort;
+pub mod elf;
+pub mod faults;
 pub mod fence;
 pub mod icd;
 pub mod labels;

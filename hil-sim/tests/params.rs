@@ -56,7 +56,7 @@ fn a_record_is_made_shown_approved_and_compared() {
     let json = folder.json("a.bin");
     assert_eq!(json["approved"], false);
     assert_eq!(json["record"]["machine"], "frankel");
-    assert_eq!(json["record"]["parameters"]["command_timeout_ticks"], 100);
+    assert_eq!(json["record"]["parameters"]["supply"]["full_scale_v"], 40.0);
     assert_eq!(json["record"]["buckets"][0]["name"], "standard");
     assert_eq!(json["record"]["buckets"][0]["bucket_m"], json["record"]["parameters"]["geometry"]["bucket_m"]);
 

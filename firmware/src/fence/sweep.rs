@@ -1,11 +1,13 @@
-//! The limits weighed in turn: a tick to place the linkage, one to tell how far it can come, then
-//! a part of its strips against a limit a tick. Meanwhile what the sweep before has kept near is followed
+//! The limits weighed in turn: a tick for the joints, two to place the linkage, a tick for each part of its strips to tell how far they
+//! can come, then of a limit what a tick has room for: much that is far off or little that is near. Meanwhile what the sweep before has kept near is followed
 //! to first order; a wish larger than the one it was weighed with waits for the next.
+
+use core::ops::Range;
 
 use kinematics_core::planning::fence::{Fence, LIMITS, Nearby, Reaches, Scene};
 use kinematics_core::planning::outline::{Outline, PlacedOutline, STRIPS, Strip};
 use kinematics_core::world::BasePlacement;
-use kinematics_core::{Cylinders, Machine, Rotor};
+use kinematics_core::{Cylinders, Joints, Machine, Rotor};
 
 use super::parameters::{FenceParameters, Guards};
 use crate::TICK_S;
@@ -24,17 +26,26 @@ pub(super) struct Ahead {
 /// A tick's share of a sweep.
 #[derive(Clone, Copy, Debug)]
 enum Next {
-    /// Place the linkage.
-    Place,
-    /// Tell how far its strips can come.
-    Reach,
-    /// Weigh this part of the strips against the first limit from this number on.
+    /// The joints and their transmissions.
+    Bend,
+    /// Place boom and arm at these joints.
+    Beams(Joints<f32>),
+    /// Place the bucket and its linkage.
+    Bucket(Joints<f32>),
+    /// Tell how far this part of its strips can come.
+    Reach(usize),
+    /// Weigh the strips from the second number on against the first limit from the first number on.
     Weigh(usize, usize),
 }
 
-/// Strips that are weighed in a tick, and in how many ticks all are.
-const PART: usize = 5;
+/// Strips whose reach is told in a tick, and in how many ticks all are.
+const PART: usize = 4;
 const PARTS: usize = STRIPS.div_ceil(PART);
+/// Work of a tick's weighing: ten ends far off, or two that are near.
+const WORK: usize = 10;
+/// Ticks a limit takes with little near it. With much it takes longer, and what was found holds for as far as the actuators could
+/// have gone in this time at full speed: not beyond.
+const TICKS_PER_LIMIT: usize = 5;
 
 /// What is near, by the last complete sweep, and the sweep under way.
 #[derive(Clone, Debug)]
@@ -46,7 +57,7 @@ pub(super) struct Sweep {
     near_ahead: Ahead,
     near_wish: [f32; 4],
     next: Next,
-    placed: Option<PlacedOutline<f32>>,
+    placed: PlacedOutline<f32>,
     reaches: Reaches<f32>,
     scene: Scene<f32>,
     found: Nearby<f32>,
@@ -61,8 +72,9 @@ impl Sweep {
     ) -> Result<Self, ParameterError> {
         let fence = p.fence();
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
-        // A tick places, one tells the reaches, one weighs the swing's range and hands over; what a sweep found serves until the next has ended.
-        let age_s = 2.0 * ((limits * PARTS) as f32 + 3.0) * TICK_S;
+        // A tick bends, two place, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
+        // the next has ended.
+        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 4.0) * TICK_S;
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -79,8 +91,8 @@ impl Sweep {
             near: Nearby::none(),
             near_ahead: ahead,
             near_wish: zero,
-            next: Next::Place,
-            placed: None,
+            next: Next::Bend,
+            placed: PlacedOutline::nowhere(),
             reaches: Reaches::none(),
             scene: Scene { swing: Rotor::IDENTITY, base, transmissions: zero, wish: zero, spare },
             found: Nearby::none(),
@@ -91,75 +103,94 @@ impl Sweep {
     pub(super) fn reset(&mut self) {
         self.near.clear();
         self.near_wish = [0.0; 4];
-        self.next = Next::Place;
+        self.next = Next::Bend;
     }
 
     /// One tick's share of the work; `None` where the linkage ahead does not close.
     pub(super) fn step(&mut self, machine: &Machine<f32>, ahead: &Ahead, wanted: [f32; 4]) -> Option<()> {
         match self.next {
-            Next::Place => return self.place(machine, ahead, wanted),
-            Next::Reach => {
-                let mut tip = None;
-                self.reaches = self.fence.reaches(guarded(&self.placed, self.guards, &mut tip), &self.scene);
-                self.next = Next::Weigh(0, 0);
+            Next::Bend => return self.bend(machine, ahead, wanted),
+            Next::Beams(joints) => {
+                self.outline.place_beams(&joints, &mut self.placed);
+                self.next = Next::Bucket(joints);
             }
+            Next::Bucket(joints) => {
+                self.outline.place_bucket(machine, &joints, &mut self.placed).ok()?;
+                self.next = Next::Reach(0);
+            }
+            Next::Reach(part) => self.reach(part),
             Next::Weigh(number, part) => self.weigh_from(number, part),
         }
         Some(())
     }
 
-    fn place(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
+    fn bend(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
         let lengths = &ahead.lengths;
-        self.placed = Some(self.outline.place(machine, &machine.cylinders_to_joints(lengths).ok()?).ok()?);
+        let joints = machine.cylinders_to_joints(lengths).ok()?;
         let [boom, arm, bucket] = machine.moment_arms(lengths).ok()?.transmissions().ok()?;
-        let transmissions = [ahead.per_swing, boom, arm, bucket];
-        self.scene = Scene { swing: ahead.swing, transmissions, wish, ..self.scene };
+        self.scene.swing = ahead.swing;
+        self.scene.transmissions = [ahead.per_swing, boom, arm, bucket];
+        self.scene.wish = wish;
         self.ahead = *ahead;
         self.found.clear();
-        self.next = Next::Reach;
+        self.next = Next::Beams(joints);
         Some(())
     }
 
-    /// Weighs a part of the strips against the first limit from this number on; after the last, what was found is what is near.
-    fn weigh_from(&mut self, number: usize, part: usize) {
+    fn reach(&mut self, part: usize) {
         let mut tip = None;
-        let strips = (guarded(&self.placed, self.guards, &mut tip), &self.reaches);
-        let from = part * PART;
-        let mut weighed = number;
-        while weighed < LIMITS && !self.fence.weigh(weighed, strips, from..from + PART, &self.scene, &mut self.found) {
-            weighed += 1;
-        }
-        self.next = if weighed + 1 >= LIMITS {
-            (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
-            Next::Place
-        } else if part + 1 < PARTS {
-            Next::Weigh(weighed, part + 1)
-        } else {
-            Next::Weigh(weighed + 1, 0)
+        let strips = guarded(&self.placed, self.guards, &mut tip);
+        self.fence.reaches_of(strips, part_of(part), &self.scene, &mut self.reaches);
+        self.next = if part + 1 < PARTS { Next::Reach(part + 1) } else { Next::Weigh(0, 0) };
+    }
+
+    /// Weighs strips from this one on against the first limit from this number on; after the last, what was found is what is near.
+    fn weigh_from(&mut self, mut number: usize, strip: usize) {
+        let mut tip = None;
+        let strips = guarded(&self.placed, self.guards, &mut tip);
+        let count = strips.len();
+        let next = loop {
+            let part = (strip, WORK);
+            match self.fence.weigh(number, (strips, &self.reaches), part, &self.scene, &mut self.found) {
+                None if number < LIMITS => number += 1,
+                next => break next,
+            }
+        };
+        self.next = match next {
+            Some(next) if next < count => Next::Weigh(number, next),
+            Some(_) if number + 1 < LIMITS => Next::Weigh(number + 1, 0),
+            _ => {
+                (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
+                Next::Bend
+            }
         };
     }
 
     /// What is let through, and the smallest clearance of the last sweep.
     pub(super) fn limit(&self, ahead: &Ahead, wanted: [f32; 4], receding: &[f32; 4]) -> ([f32; 4], f32) {
+        let moved = self.near_ahead.until(ahead);
+        let too_far = |(&moved, spare): (&f32, f32)| moved > spare || moved < -spare;
+        if moved.iter().zip(self.scene.spare).any(too_far) {
+            return ([0.0; 4], self.near.closest);
+        }
         let mut weighed = wanted;
         for (wanted, wish) in weighed.iter_mut().zip(self.near_wish) {
             *wanted = if wish > 0.0 { limited(*wanted, 0.0, wish) } else { limited(*wanted, wish, 0.0) };
         }
-        let moved = self.near_ahead.until(ahead);
         (self.fence.limit(&self.near, &weighed, receding, &moved), self.near.closest)
     }
 }
 
+/// The strips of a part, by number.
+fn part_of(part: usize) -> Range<usize> {
+    part * PART..(part + 1) * PART
+}
+
 /// The strips that are guarded; `tip` is room for the teeth's.
-fn guarded<'a>(
-    placed: &'a Option<PlacedOutline<f32>>,
-    guards: Guards,
-    tip: &'a mut Option<Strip<f32>>,
-) -> &'a [Strip<f32>] {
-    match (placed, guards) {
-        (Some(placed), Guards::Linkage) => &placed.strips,
-        (Some(placed), Guards::Tip) => core::slice::from_ref(tip.insert(placed.tip())),
-        (None, _) => &[],
+fn guarded<'a>(placed: &'a PlacedOutline<f32>, guards: Guards, tip: &'a mut Option<Strip<f32>>) -> &'a [Strip<f32>] {
+    match guards {
+        Guards::Linkage => &placed.strips,
+        Guards::Tip => core::slice::from_ref(tip.insert(placed.tip())),
     }
 }
 

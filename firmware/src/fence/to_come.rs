@@ -70,7 +70,10 @@ impl ToCome {
     /// One tick at this speed, of an actuator measured at `position` between these ends of its travel, m or rad.
     pub(super) fn command(&mut self, speed: f32, position: f32, [low, high]: [f32; 2]) {
         let [extend, retract] = &self.valve;
-        let opening = |valve: &Opening, speed: f32| limited(valve.dead_band + speed * valve.per_speed, 0.0, 1.0);
+        let opening = |valve: &Opening, speed: f32| {
+            let opening = valve.dead_band + speed * valve.per_speed;
+            if opening < 1.0 { opening } else { 1.0 }
+        };
         let target = if speed > 0.0 {
             opening(extend, speed)
         } else if speed < 0.0 {
@@ -81,9 +84,11 @@ impl ToCome {
         self.spool += (target - self.spool) * self.spool_step;
         (self.speed, self.closing) = self.at_spool();
         let ahead = position + self.under_way as f32 * (1.0 / UNITS);
-        let [back, forth] = [limited(low - ahead, low - high, 0.0), limited(high - ahead, 0.0, high - low)];
+        // Up to the stop it goes towards, and never back from there.
+        let way = self.speed * TICK_S;
+        let way = if way > 0.0 { limited(high - ahead, 0.0, way) } else { limited(low - ahead, way, 0.0) };
         // The cast saturates.
-        let moved = (limited(self.speed * TICK_S, back, forth) * UNITS) as i16;
+        let moved = (way * UNITS) as i16;
         self.under_way += i32::from(moved);
         if let Some(slot) = self.moves.get_mut(self.next).filter(|_| self.delay > 0) {
             self.under_way -= i32::from(*slot);

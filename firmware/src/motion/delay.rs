@@ -1,24 +1,26 @@
-//! A value as it was some ticks ago, in fixed memory.
+//! Values as they were some ticks ago, in fixed memory.
 
 use core::num::NonZeroU32;
 
 /// Values kept.
 const KEPT: usize = 256;
 
-/// A delay of up to 1000 ticks. Of a delay above 254 ticks every second to fourth value is kept and a line drawn between.
+/// A delay of up to 1001 ticks. Of a delay above 254 ticks every second to fourth value is kept and a line drawn between.
 #[derive(Clone, Debug)]
-pub(super) struct DelayLine {
+pub(super) struct DelayLine<const N: usize> {
     /// The first at tick 0; a ring.
-    kept: [f32; KEPT],
+    kept: [[f32; N]; KEPT],
+    /// At tick 0 and before.
+    origin: [f32; N],
     ticks: u32,
     /// Ticks left out from one kept value to the next.
     between: u32,
 }
 
-impl DelayLine {
+impl<const N: usize> DelayLine<N> {
     /// Without delay.
     pub(super) const fn new() -> Self {
-        Self { kept: [0.0; KEPT], ticks: 0, between: 0 }
+        Self { kept: [[0.0; N]; KEPT], origin: [0.0; N], ticks: 0, between: 0 }
     }
 
     pub(super) fn set_delay(&mut self, ticks: u32) {
@@ -26,20 +28,31 @@ impl DelayLine {
         self.between = ticks / (KEPT as u32 - 1);
     }
 
-    /// Takes the value of `tick`, counted from 1, one after the other, and tells the delayed one; before the first it is 0.
-    pub(super) fn pass(&mut self, tick: u32, value: f32) -> f32 {
+    /// What the values are at tick 0 and before; 0 unless set.
+    pub(super) fn set_origin(&mut self, origin: [f32; N]) {
+        self.origin = origin;
+    }
+
+    /// Takes the values of `tick`, counted from 1, one after the other, and tells the delayed ones.
+    pub(super) fn pass(&mut self, tick: u32, values: [f32; N]) -> [f32; N] {
         let every = NonZeroU32::MIN.saturating_add(self.between);
         if tick % every == 0
             && let Some(kept) = self.kept.get_mut((tick / every) as usize % KEPT)
         {
-            *kept = value;
+            *kept = values;
         }
-        let Some(then) = tick.checked_sub(self.ticks).filter(|then| *then > 0) else { return 0.0 };
+        let Some(then) = tick.checked_sub(self.ticks).filter(|then| *then > 0) else { return self.origin };
         let (number, beyond) = (then / every, then % every);
-        let kept = |number: u32| self.kept.get(number as usize % KEPT).copied().unwrap_or(0.0);
-        // The first place may hold a later round's value: that of tick 0 is 0.
-        let before = if number == 0 { 0.0 } else { kept(number) };
-        if beyond == 0 { before } else { before + (kept(number + 1) - before) * (beyond as f32 / every.get() as f32) }
+        let kept = |number: u32| self.kept.get(number as usize % KEPT).copied().unwrap_or(self.origin);
+        // The first place may hold a later round's values.
+        let mut told = if number == 0 { self.origin } else { kept(number) };
+        if beyond > 0 {
+            let part = beyond as f32 / every.get() as f32;
+            for (told, after) in told.iter_mut().zip(kept(number + 1)) {
+                *told += (after - *told) * part;
+            }
+        }
+        told
     }
 }
 
@@ -49,27 +62,30 @@ mod tests {
 
     #[test]
     fn every_delay_up_to_a_thousand_ticks_gives_back_the_value_of_then() {
-        for delay in 0..=1000_u32 {
+        for delay in 0..=1001_u32 {
             let mut line = DelayLine::new();
             line.set_delay(delay);
             for tick in 1..=2100_u32 {
                 let then = tick.saturating_sub(delay) as f32;
-                let found = line.pass(tick, tick as f32);
+                let [found, back] = line.pass(tick, [tick as f32, -(tick as f32)]);
+                assert_eq!(found, -back);
                 assert!((found - then).abs() <= 1e-3, "{delay} {tick}: {found}");
             }
         }
     }
 
     #[test]
-    fn a_line_used_before_starts_over_at_zero() {
+    fn a_line_used_before_starts_over_at_its_origin() {
         let mut line = DelayLine::new();
         line.set_delay(300);
         for tick in 1..=1500 {
-            line.pass(tick, 7.0);
+            line.pass(tick, [7.0]);
         }
+        line.set_origin([0.25]);
         for tick in 1..=301 {
-            assert!(line.pass(tick, 0.5) <= 0.5, "{tick}");
+            let [found] = line.pass(tick, [0.5]);
+            assert!((0.25..=0.5).contains(&found), "{tick}");
         }
-        assert_eq!(line.pass(302, 0.5), 0.5);
+        assert_eq!(line.pass(302, [0.5]), [0.5]);
     }
 }

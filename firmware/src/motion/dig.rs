@@ -3,6 +3,7 @@
 use kinematics_core::{Cylinders, Machine};
 
 use super::Wanted;
+use super::delay::DelayLine;
 use super::tracker::{Tracker, for_each};
 use crate::TICKS_PER_S;
 use crate::dig::Dig;
@@ -21,10 +22,15 @@ enum Mode {
     Done,
 }
 
+/// Cylinder lengths seen ahead, until their time comes. What was computed once is not computed again.
+pub(super) type Seen = DelayLine<3>;
+
 /// The dig's follower.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DigFollower {
     dig: Dig<f32>,
+    /// Its reference at the beginning.
+    start: Cylinders<f32>,
     dig_ticks: u32,
     preview_ticks: u32,
     mode: Mode,
@@ -32,14 +38,14 @@ pub(super) struct DigFollower {
 }
 
 impl DigFollower {
-    pub(super) fn new(p: &MotionParameters, dig: Dig<f32>) -> Self {
-        Self {
-            dig,
-            dig_ticks: dig.ticks(),
-            preview_ticks: (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32,
-            mode: Mode::Hold,
-            tracker: Tracker::new(p),
-        }
+    /// `None` where the dig does not begin within reach and stroke. `seen` are the references seen ahead, kept until their time comes.
+    pub(super) fn new(p: &MotionParameters, machine: &Machine<f32>, dig: Dig<f32>, seen: &mut Seen) -> Option<Self> {
+        let start = machine.tip_to_cylinders(&dig.at_tick(0)).ok()?;
+        let preview_ticks = (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
+        seen.set_delay(preview_ticks + 1);
+        seen.set_origin([start.boom, start.arm, start.bucket]);
+        let dig_ticks = dig.ticks();
+        Some(Self { dig, start, dig_ticks, preview_ticks, mode: Mode::Hold, tracker: Tracker::new(p) })
     }
 
     pub(super) fn dig(&self) -> &Dig<f32> {
@@ -53,20 +59,24 @@ impl DigFollower {
     }
 
     /// Speeds for this tick of the dig.
-    pub(super) fn follow(&mut self, machine: &Machine<f32>, lengths: &Cylinders<f32>) -> Result<Wanted, Fault> {
+    pub(super) fn follow(
+        &mut self,
+        machine: &Machine<f32>,
+        lengths: &Cylinders<f32>,
+        seen: &mut Seen,
+    ) -> Result<Wanted, Fault> {
         let hold = Wanted::hold(lengths);
         match self.mode {
             Mode::Done => Ok(hold),
             Mode::Hold => {
-                let start = self.reference(machine, 0)?;
-                self.tracker.check_start(start, lengths)?;
-                self.step(machine, 0, start, lengths)
+                self.tracker.check_start(self.start, lengths)?;
+                self.step(machine, (0, self.start), lengths, seen)
             }
             Mode::Dig { elapsed, .. } if elapsed >= self.dig_ticks + self.preview_ticks => {
                 self.mode = Mode::Done;
                 Ok(hold)
             }
-            Mode::Dig { elapsed, ahead } => self.step(machine, elapsed, ahead, lengths),
+            Mode::Dig { elapsed, ahead } => self.step(machine, (elapsed, ahead), lengths, seen),
         }
     }
 
@@ -74,21 +84,18 @@ impl DigFollower {
     fn step(
         &mut self,
         machine: &Machine<f32>,
-        elapsed: u32,
-        ahead: Cylinders<f32>,
+        (elapsed, ahead): (u32, Cylinders<f32>),
         lengths: &Cylinders<f32>,
+        seen: &mut Seen,
     ) -> Result<Wanted, Fault> {
         let dig_tick = elapsed.saturating_sub(self.preview_ticks);
-        let reference = self.reference(machine, dig_tick)?;
-        let next_ahead = self.reference(machine, elapsed + 1)?;
+        let next_ahead = machine.tip_to_cylinders(&self.dig.at_tick(elapsed + 1)).map_err(|_| Fault::Trajectory)?;
+        let [boom, arm, bucket] = seen.pass(elapsed + 1, [next_ahead.boom, next_ahead.arm, next_ahead.bucket]);
+        let reference = Cylinders { boom, arm, bucket };
         self.mode = Mode::Dig { elapsed: elapsed + 1, ahead: next_ahead };
 
         let feed_forward = for_each(next_ahead, ahead, |next, now| (next - now) * TICKS_PER_S as f32);
         let speeds = self.tracker.speeds(feed_forward, reference, lengths)?;
         Ok(Wanted { speeds, reference, dig_tick: dig_tick + 1 })
-    }
-
-    fn reference(&self, machine: &Machine<f32>, tick: u32) -> Result<Cylinders<f32>, Fault> {
-        machine.tip_to_cylinders(&self.dig.at_tick(tick)).map_err(|_| Fault::Trajectory)
     }
 }

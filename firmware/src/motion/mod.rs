@@ -20,7 +20,7 @@ use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
-use dig::DigFollower;
+use dig::{DigFollower, Seen};
 use levers::Levers;
 use planned::MoveFollower;
 use reach::ReachFollower;
@@ -43,10 +43,11 @@ impl Wanted {
     }
 }
 
-/// What following a planned move or reaching past obstacles needs of memory: about 9 KiB, filled in place. An image gives it as a
+/// What following a dig or a planned move or reaching past obstacles needs of memory: about 12 KiB, filled in place. An image gives it as a
 /// static, so that it never lies on the stack.
 #[derive(Clone, Debug)]
 pub struct Followers {
+    seen: Seen,
     planned: MoveFollower,
     /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
     reach: Option<Cell<ReachFollower>>,
@@ -55,7 +56,7 @@ pub struct Followers {
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { planned: MoveFollower::new(), reach: None }
+        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None }
     }
 
     /// Plans what the parameters ask for.
@@ -108,8 +109,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         mut followers: F,
     ) -> Result<Self, ParameterError> {
         followers.borrow_mut().plan(p, machine)?;
+        let seen = &mut followers.borrow_mut().seen;
         Ok(Self {
-            dig: dig.map(|dig| DigFollower::new(&p.motion, dig)),
+            dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, seen)),
             levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
             followers,
             request: Request::Neutral,
@@ -163,7 +165,10 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         self.request = intent.request;
         match intent.request {
             Request::Neutral => Ok(Wanted::hold(lengths)),
-            Request::Dig => self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths),
+            Request::Dig => {
+                let seen = &mut self.followers.borrow_mut().seen;
+                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, seen)
+            }
             Request::Move => self.followers.borrow_mut().planned.follow(lengths),
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;

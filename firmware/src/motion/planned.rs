@@ -17,7 +17,7 @@ use crate::{TICK, TICKS_PER_S};
 pub(super) struct MoveFollower {
     planned: Move,
     ahead: Pace<f32>,
-    delay: DelayLine,
+    delay: DelayLine<1>,
     preview_ticks: u32,
     /// Ticks since the request; 0 before.
     elapsed: u32,
@@ -79,7 +79,8 @@ impl MoveFollower {
             self.rested += 1;
         }
         self.elapsed = self.elapsed.saturating_add(1);
-        let reference = path.at(self.delay.pass(self.elapsed, ahead.s)).lengths;
+        let [then] = self.delay.pass(self.elapsed, [ahead.s]);
+        let reference = path.at(then).lengths;
         let [boom, arm, bucket] = path.at(ahead.s).slope.map(|slope| slope * ahead.rate);
         let speeds = self.tracker.speeds(Cylinders { boom, arm, bucket }, reference, lengths)?;
         Ok(Wanted { speeds, reference, dig_tick: self.elapsed.saturating_sub(self.preview_ticks) })

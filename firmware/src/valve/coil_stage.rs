@@ -1,5 +1,7 @@
 //! The valve stage with measured currents: four spools, speeds in, duties and coil faults out.
 
+use core::cell::Cell;
+
 use serde::{Deserialize, Serialize};
 
 use super::Coils;
@@ -133,7 +135,7 @@ impl CoilStage {
     /// coils' current codes.
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
-        let now = Now { gate, supply: self.shared.gains.supply(supply_v) };
+        let now = Now { gate, supply: self.shared.gains.supply(supply_v), begun: Cell::new(false) };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
         let inputs = speeds.to_array().into_iter().zip(codes);
         for (index, ((spool, (speed, codes)), (currents, duties))) in
@@ -162,7 +164,7 @@ impl CoilStage {
         codes: &[Solenoids<u16>; 4],
     ) -> CoilsDriven {
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
-        let now = Now { gate, supply: self.shared.gains.supply(supply_v) };
+        let now = Now { gate, supply: self.shared.gains.supply(supply_v), begun: Cell::new(false) };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
         for (index, ((each, codes), outputs)) in self.spools.iter_mut().zip(codes).zip(outputs).enumerate() {
             let current_a = if index == spool { current_a } else { 0.0 };

@@ -2,6 +2,8 @@
 
 mod at_current;
 
+use core::cell::Cell;
+
 use super::coil_fault::CoilFault;
 use super::coil_stage::{CoilStageParameters, SpoolParameters};
 use super::coil_watch::{CoilWatch, Given, Suspicion, WatchLimits};
@@ -57,10 +59,13 @@ impl Shared {
 }
 
 /// What all spools have in common in a tick.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Now {
     pub(super) gate: Gate,
     pub(super) supply: SupplyNow,
+    /// A solenoid has been switched on in this tick: another waits for the next, as that is what costs most. So four spools begin
+    /// within 4 ms.
+    pub(super) begun: Cell<bool>,
 }
 
 /// One direction.
@@ -134,7 +139,7 @@ impl Spool {
     ) -> Option<(Side, CoilFault)> {
         let Some(side) = self.interlock.holder() else {
             let fault = self.judge_off(shared, codes);
-            if let Some((side, current_a)) = self.turn(shared, now.gate, speed, codes) {
+            if let Some((side, current_a)) = self.turn(shared, now, speed, codes) {
                 self.start(shared, now, side, current_a, codes, outputs);
             }
             return fault;
@@ -156,7 +161,7 @@ impl Spool {
         let current_a = if now.gate == Gate::Open && direction.flow.stays_on(wish) {
             direction.ramp.follow(direction.flow.beyond(wish), direction.flow.min_a())
         } else {
-            let Some((_, current_a)) = self.turn(shared, now.gate, speed, codes) else { return fault };
+            let Some((_, current_a)) = self.turn(shared, now, speed, codes) else { return fault };
             current_a
         };
         self.give(shared, now, side, current_a, own_a, outputs);
@@ -246,8 +251,8 @@ impl Spool {
     /// The solenoid that is on, and its current, when it is not the one that was asked for and is on already. Not inlined: it is
     /// for starts, ends and changes of direction.
     #[inline(never)]
-    fn turn(&mut self, shared: &Shared, gate: Gate, speed: f32, codes: Solenoids<u16>) -> Option<(Side, f32)> {
-        if gate == Gate::Closed {
+    fn turn(&mut self, shared: &Shared, now: &Now, speed: f32, codes: Solenoids<u16>) -> Option<(Side, f32)> {
+        if now.gate == Gate::Closed {
             self.close();
             return None;
         }
@@ -256,7 +261,7 @@ impl Spool {
         let (direction, opposite) = asked.split([extend, retract]);
         opposite.flow.rest();
         let target_a = direction.flow.current_a(wish);
-        if target_a > 0.0 && self.interlock.holder().is_none() {
+        if target_a > 0.0 && self.interlock.holder().is_none() && !now.begun.replace(true) {
             let measured_a = codes.map(|code| shared.measured_a(code));
             self.interlock.request(asked, measured_a);
             self.current = CurrentLoop::start(asked.split(measured_a).0);

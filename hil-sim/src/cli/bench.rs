@@ -58,7 +58,9 @@ type AnyError = Box<dyn std::error::Error>;
 
 fn bench(args: &BenchArgs) -> Result<(), AnyError> {
     let mut rows = emulated::maps()?;
-    rows.push(emulated::tick()?);
+    for tick in emulated::TICKS {
+        rows.push(emulated::tick(tick)?);
+    }
     let host = host::maps(args.peers)?;
     if host.is_none() {
         eprintln!("valgrind is not installed: no counts on the host (apt-get install valgrind)");

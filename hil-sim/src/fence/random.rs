@@ -15,9 +15,9 @@ use crate::plant::SwingDrive;
 use crate::scenario::{LeverMove, Scenario, Start, Task};
 
 /// Each run, s.
-const DURATION_S: f64 = 8.0;
+const DURATION_S: f64 = 8.15;
 /// When the levers first move, s.
-const BEGIN_S: f64 = 0.1;
+const BEGIN_S: f64 = 0.25;
 
 /// One random run, to be tried under each kind of fence.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ fn base(machine: &MachineFile) -> Result<Scenario, String> {
     // The machine is put in afterwards: any shipped one will do to read the text.
     let text = format!(
         "name = \"fence\"\ndescription = \"random operator\"\nmachine = \"exact-mini\"\nduration_s = {DURATION_S}\n\
-         [operator]\nenable_s = 0.05\nbegin_s = {BEGIN_S}\n\
+         [operator]\nenable_s = 0.15\nbegin_s = {BEGIN_S}\n\
          [start]\nswing_deg = 0.0\nboom_m = 1.1\narm_m = 1.3\nbucket_m = 1.0\n\
          [[lever]]\nat_s = 0.0\nuntil_s = 1.0\nswing = 0.0\nboom = 0.0\narm = 0.0\nbucket = 0.0\n\
          [motion]\npreview_s = 0.15\ngain_per_s = 2.0\nsmallest_speed_mps = 0.002\nstart_tolerance_m = 0.02\n\

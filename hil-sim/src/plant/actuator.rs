@@ -20,10 +20,23 @@ pub struct ActuatorModel {
     pub full_speed: [f64; 2],
 }
 
+/// What is wrong with a spool or its oil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Defect {
+    /// The spool stays where it is.
+    Stuck,
+    /// It leaks: the actuator creeps at this speed besides, m/s or rad/s.
+    Leaking(f64),
+    /// There is no pressure: nothing moves.
+    NoPressure,
+}
+
 /// An actuator in motion.
 #[derive(Clone, Debug)]
 pub struct Actuator {
     model: ActuatorModel,
+    /// What is wrong with it.
+    pub defect: Option<Defect>,
     /// Spool commands under way, oldest first.
     under_way: VecDeque<f64>,
     spool_step: f64,
@@ -39,6 +52,7 @@ impl Actuator {
         let spool_step = if model.spool_lag_s > 0.0 { 1.0 - libm::exp(-step_s / model.spool_lag_s) } else { 1.0 };
         Self {
             model,
+            defect: None,
             under_way: VecDeque::from(vec![0.0; delay]),
             spool_step,
             spool: 0.0,
@@ -51,9 +65,15 @@ impl Actuator {
     pub fn step(&mut self, command: f64, step_s: f64) {
         self.under_way.push_back(command);
         let delayed = self.under_way.pop_front().unwrap_or(command);
-        self.spool += (delayed - self.spool) * self.spool_step;
-
-        let moved = self.position + self.speed() * step_s;
+        if self.defect != Some(Defect::Stuck) {
+            self.spool += (delayed - self.spool) * self.spool_step;
+        }
+        let speed = match self.defect {
+            None | Some(Defect::Stuck) => self.speed(),
+            Some(Defect::Leaking(creep)) => self.speed() + creep,
+            Some(Defect::NoPressure) => 0.0,
+        };
+        let moved = self.position + speed * step_s;
         self.position = self.model.stroke.map_or(moved, |Stroke { min_m, max_m }| moved.clamp(min_m, max_m));
         self.against_stop = self.position != moved;
     }

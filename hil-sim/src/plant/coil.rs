@@ -28,7 +28,7 @@ pub struct SolenoidModel {
 pub enum Broken {
     /// A wire is off.
     Open,
-    /// The driver's wire touches the supply: full voltage, whatever the duty.
+    /// The driver's wire touches the supply: full voltage, whatever the duty, as long as the cut-off closes the return.
     ShortToSupply,
     /// The driver's wire touches ground: the switch limits and reports overload, the winding gets nothing.
     ShortToGround,
@@ -77,7 +77,9 @@ impl Solenoid {
         self.overload = self.broken == Some(Broken::ShortToGround) && duty > 0.0;
         let freewheel_v = if drive.cut_off_closed { self.model.freewheel_v } else { self.model.clamp_v };
         let volts = match self.broken {
-            Some(Broken::ShortToSupply) => drive.supply_v,
+            // The cut-off opens the solenoids' common return.
+            Some(Broken::ShortToSupply) if drive.cut_off_closed => drive.supply_v,
+            Some(Broken::ShortToSupply) => -freewheel_v,
             Some(Broken::ShortToGround) => 0.0,
             Some(Broken::Open | Broken::Resistance(_)) | None => duty * drive.supply_v - (1.0 - duty) * freewheel_v,
         };

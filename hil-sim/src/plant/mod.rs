@@ -9,7 +9,7 @@ use firmware::io::{SPOOLS, Solenoids};
 
 use coil::{Broken, Drive, Solenoid, SolenoidModel};
 
-pub use actuator::{Actuator, ActuatorModel};
+pub use actuator::{Actuator, ActuatorModel, Defect};
 pub use swing::SwingDrive;
 
 /// One step of the plant, s: one control tick.
@@ -76,6 +76,11 @@ impl Plant {
     /// Breaks a solenoid, or repairs it.
     pub fn set_broken(&mut self, spool: usize, side: usize, broken: Option<Broken>) {
         self.solenoids[spool][side].broken = broken;
+    }
+
+    /// Spoils a spool or its oil, or repairs it.
+    pub fn set_defect(&mut self, spool: usize, defect: Option<Defect>) {
+        self.actuators[spool].defect = defect;
     }
 
     /// Pressures of boom, arm and bucket, \[head, rod\], Pa; `None` of a plant without oil.

@@ -1,6 +1,7 @@
 //! Running a scenario: plant, operator and controller, tick by tick.
 
 pub(crate) mod bus;
+mod injector;
 mod log;
 mod operator;
 mod reach;
@@ -23,6 +24,7 @@ use crate::travel::{Violation, violations};
 use bus::{Bus, Said};
 use wiring::{Measured, Wiring};
 
+pub use injector::{Healthy, Injector};
 pub use log::{FaultSeen, Log, Row, StopHit};
 pub use operator::{Doing, Operator};
 pub use reach::ReachSeen;
@@ -97,7 +99,20 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// The place was lost.
-    pub fn complete(mut self, place: &mut dyn Place, mut progress: impl FnMut(u32, u32)) -> Result<Log, PlaceError> {
+    pub fn complete(self, place: &mut dyn Place, progress: impl FnMut(u32, u32)) -> Result<Log, PlaceError> {
+        self.complete_with(place, &mut Healthy, progress)
+    }
+
+    /// The same with something that spoils it.
+    ///
+    /// # Errors
+    /// The place was lost.
+    pub fn complete_with(
+        mut self,
+        place: &mut dyn Place,
+        injector: &mut dyn Injector,
+        mut progress: impl FnMut(u32, u32),
+    ) -> Result<Log, PlaceError> {
         let ticks = (self.scenario.duration_s * f64::from(TICKS_PER_S) + 0.5) as u32;
         let crc = Crc::<u64>::new(&CRC_64_XZ);
         let mut hash = crc.digest();
@@ -112,8 +127,9 @@ impl<'a> Run<'a> {
             let frames = self.bus.frames(&Said { intent: doing.intent, slope_deg: [0.0; 2], pressures_pa });
             let supply_v = self.scenario.supply_v;
             let measured = Measured { positions, solenoids: self.plant.solenoids(), supply_v, cut_off_closed };
-            let wires = self.wiring.wires(&measured, &doing, frames, &self.scenario.events, time_s);
+            let mut wires = self.wiring.wires(&measured, &doing, frames, &self.scenario.events, time_s);
 
+            injector.wires(time_s, &mut wires);
             let reply = place.tick(&wires)?;
             // The relay's contact follows within the tick.
             cut_off_closed = reply.pins.cut_off_closed;
@@ -124,6 +140,7 @@ impl<'a> Run<'a> {
             log.stops(time_s, &held);
             log.push(self.row(time_s, positions, &reply.outputs), reply.timing);
             self.break_coils(time_s);
+            injector.plant(time_s, &mut self.plant, &reply.pins);
             self.plant.step(&Driven { duties: reply.pins.duties, cut_off_closed, supply_v });
             progress(tick + 1, ticks);
         }

@@ -148,6 +148,14 @@ pub(crate) struct Survey<T, const N: usize> {
     near: [[Near<T>; SEGMENTS]; N],
 }
 
+impl<T: Real, const N: usize> Survey<T, N> {
+    /// Of nothing yet.
+    pub(crate) const fn none() -> Self {
+        let zero = Near { distance: T::ZERO, row: [T::ZERO; 4] };
+        Self { here: Aim { swing: Rotor::IDENTITY, places: [T::ZERO; 3] }, near: [[zero; SEGMENTS]; N] }
+    }
+}
+
 /// What one step says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<T> {
@@ -257,10 +265,20 @@ impl<T: Real> Avoid<T> {
         self.rates(&Survey { here: self.aim(joints), near }, aim)
     }
 
-    /// The first half of a step: where everything is. One copy of it: rehearsal and motion share it.
+    /// The first half of a step: where everything is. One copy of it: rehearsal and motion share it. It fills in place: copying
+    /// what it finds would cost more than finding it.
     #[inline(never)]
-    pub(crate) fn survey<const N: usize>(&self, joints: &[Rotor<T>; 4], obstacles: &[Sphere<T>; N]) -> Survey<T, N> {
-        Survey { here: self.aim(joints), near: nearest(&self.hull.place(joints), obstacles) }
+    pub(crate) fn survey<const N: usize>(
+        &self,
+        joints: &[Rotor<T>; 4],
+        obstacles: &[Sphere<T>; N],
+        survey: &mut Survey<T, N>,
+    ) {
+        survey.here = self.aim(joints);
+        let placed = self.hull.place(joints);
+        for (near, sphere) in survey.near.iter_mut().zip(obstacles) {
+            placed.near_into(sphere, near);
+        }
     }
 
     /// The second half: the rates.

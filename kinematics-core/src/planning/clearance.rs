@@ -121,14 +121,20 @@ impl<T: Real> Strip<T> {
     /// point between them is bounded by both, in distance and in speed.
     #[inline]
     pub fn to_half_space(&self, space: &HalfSpace<T>) -> [Clearance<T>; 2] {
-        let [nx, ny, nz] = space.normal;
-        let y = if ny < T::ZERO { -self.lateral } else { self.lateral };
-        let room = space.offset - self.radius - ny * y;
+        let side = self.side(space);
         self.ends.map(|end| Clearance {
-            distance: room - (nx * end.at.x + nz * end.at.z),
-            nearest: [end.at.x, y, end.at.z],
-            approach: approach(&end, y, space.normal),
+            distance: side.distance(&end),
+            nearest: [end.at.x, side.y, end.at.z],
+            approach: side.approach(&end),
         })
+    }
+
+    /// The side of the strip nearer to a half-space seen in this frame.
+    #[inline(always)]
+    pub(super) fn side(&self, space: &HalfSpace<T>) -> Side<T> {
+        let [_, ny, _] = space.normal;
+        let y = if ny < T::ZERO { -self.lateral } else { self.lateral };
+        Side { normal: space.normal, y, room: space.offset - self.radius - ny * y }
     }
 
     /// Clearance to a ball seen in this frame. With its centre on the strip itself the direction is taken sideways.
@@ -154,6 +160,30 @@ impl<T: Real> Strip<T> {
     }
 }
 
+/// A side of a strip before a half-space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side<T> {
+    normal: [T; 3],
+    y: T,
+    /// The distance of a point in the origin, m.
+    room: T,
+}
+
+impl<T: Real> Side<T> {
+    /// An end's distance, m.
+    #[inline(always)]
+    pub(super) fn distance(&self, end: &MovingPoint<T>) -> T {
+        let [nx, _, nz] = self.normal;
+        self.room - (nx * end.at.x + nz * end.at.z)
+    }
+
+    /// How fast an end comes nearer.
+    #[inline(always)]
+    pub(super) fn approach(&self, end: &MovingPoint<T>) -> [T; 4] {
+        approach(end, self.y, self.normal)
+    }
+}
+
 /// The point of a strip nearest to a ball.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facing<T> {
@@ -167,23 +197,25 @@ pub(super) struct Facing<T> {
 }
 
 impl<T: Real> Facing<T> {
+    #[inline(always)]
+    fn clearance(&self, strip: &Strip<T>) -> Clearance<T> {
+        let nearest = [self.at.x, self.y, self.at.z];
+        Clearance { distance: self.distance, nearest, approach: self.approach(strip) }
+    }
+
     /// How fast it comes nearer.
     #[inline(always)]
-    pub(super) fn clearance(&self, strip: &Strip<T>) -> Clearance<T> {
+    pub(super) fn approach(&self, strip: &Strip<T>) -> [T; 4] {
+        let [dx, dy, dz] = self.between;
+        let apart = self.apart;
+        let normal = if apart > T::ZERO { [dx / apart, dy / apart, dz / apart] } else { [T::ZERO, T::ONE, T::ZERO] };
         let [from, to] = &strip.ends;
         let (part, rest) = (self.part, T::ONE - self.part);
         let mix = |a: Vec2<T>, b: Vec2<T>| a.scale(rest) + b.scale(part);
         let [b0, a0, k0] = from.per_joint;
         let [b1, a1, k1] = to.per_joint;
         let point = MovingPoint { at: self.at, per_joint: [mix(b0, b1), mix(a0, a1), mix(k0, k1)] };
-        let [dx, dy, dz] = self.between;
-        let apart = self.apart;
-        let normal = if apart > T::ZERO { [dx / apart, dy / apart, dz / apart] } else { [T::ZERO, T::ONE, T::ZERO] };
-        Clearance {
-            distance: self.distance,
-            nearest: [point.at.x, self.y, point.at.z],
-            approach: approach(&point, self.y, normal),
-        }
+        approach(&point, self.y, normal)
     }
 }
 

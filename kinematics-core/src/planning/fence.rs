@@ -66,9 +66,12 @@
 //!     swing: Rotor::IDENTITY, base, transmissions: [1.0, boom, arm, bucket], wish: [0.3, 0.2, 0.0, 0.0], spare: [0.0; 4],
 //! };
 //! let mut nearby = Nearby::none();
-//! let reaches = fence.reaches(&placed.strips, &scene);
-//! assert!(reaches != Reaches::none());
-//! fence.weigh(0, (&placed.strips, &reaches), 0..13, &scene, &mut nearby);
+//! let mut reaches = Reaches::none();
+//! fence.reaches_of(&placed.strips, 0..13, &scene, &mut reaches);
+//! assert_eq!(reaches, fence.reaches(&placed.strips, &scene));
+//! assert_eq!(fence.weigh(0, (&placed.strips, &reaches), (0, 1), &scene, &mut nearby), Some(1));
+//! assert_eq!(fence.weigh(0, (&placed.strips, &reaches), (1, 1000), &scene, &mut nearby), Some(13));
+//! assert_eq!(fence.weigh(1, (&placed.strips, &reaches), (0, 1000), &scene, &mut nearby), None);
 //! assert_eq!(nearby.closest, closest);
 //! // The next sweep begins with nothing near.
 //! nearby.clear();
@@ -79,9 +82,8 @@
 
 use core::ops::Range;
 
-use super::clearance::Clearance;
 use super::limits::{HALF_SPACES, Limits, SPHERES};
-use super::nearby::NEARBY;
+use super::nearby::{Approach, NEARBY};
 use super::outline::{OWN_ENDS, STRIPS, Strip};
 use crate::world::BasePlacement;
 use crate::{Real, Rotor};
@@ -90,6 +92,8 @@ pub use super::nearby::Nearby;
 
 /// How many limits [`Fence::weigh`] takes one by one: half-spaces, then balls, then the swing's range.
 pub const LIMITS: usize = HALF_SPACES + SPHERES + 1;
+/// What an end costs that is near, against one that is far off: it is kept with its derivative.
+pub const NEAR: usize = 5;
 /// Rounds over all approaches before one factor settles what is left.
 const ROUNDS: usize = 2;
 
@@ -170,20 +174,12 @@ impl<T: Real> Reaches<T> {
     }
 }
 
-/// What is wanted that exceeds a bound: each actuator's share of the approach, apart by its sign, and the fastest allowed.
+/// What is wanted that exceeds a bound: each actuator's share of the approach, what recedes negative and as far as it has been
+/// reached; and the fastest allowed.
 #[derive(Clone, Copy, Debug)]
 struct Bound<T> {
-    towards: [T; 4],
-    away: [T; 4],
+    shares: [T; 4],
     fastest: T,
-}
-
-impl<T: Real> Bound<T> {
-    /// The approaching and the receding shares, scaled.
-    #[inline(always)]
-    fn parts(&self, scales: [T; 4]) -> (T, T) {
-        (sum(times(self.towards, scales)), sum(times(self.away, scales)))
-    }
 }
 
 #[inline(always)]
@@ -200,12 +196,19 @@ fn times<T: Real>([a, b, c, d]: [T; 4], [w, x, y, z]: [T; 4]) -> [T; 4] {
 impl<T: Real> Fence<T> {
     /// How far these strips can come with the scene's wish: farther off, no limit matters to them.
     pub fn reaches(&self, strips: &[Strip<T>], scene: &Scene<T>) -> Reaches<T> {
+        let mut reaches = Reaches::none();
+        self.reaches_of(strips, 0..STRIPS, scene, &mut reaches);
+        reaches
+    }
+
+    /// [`Fence::reaches`] of a part of the strips; the others' stay as they are.
+    pub fn reaches_of(&self, strips: &[Strip<T>], part: Range<usize>, scene: &Scene<T>, reaches: &mut Reaches<T>) {
         let magnitude = |x: T| if x < T::ZERO { -x } else { x };
         let (wish, spare) = (times(scene.wish, scene.transmissions), times(scene.spare, scene.transmissions));
         let (wish, spare) = (wish.map(magnitude), spare.map(magnitude));
         let per_square = self.stopping.per_square();
-        let mut reaches = Reaches::none();
-        for (reach, strip) in reaches.of_strips.iter_mut().zip(strips) {
+        let strips = reaches.of_strips.iter_mut().zip(strips).take(part.end).skip(part.start);
+        for (reach, strip) in strips {
             let (mut fastest, mut longest) = (T::ZERO, T::ZERO);
             for end in &strip.ends {
                 let [b, a, k] = end.per_joint.map(|v| v.norm_squared().sqrt());
@@ -217,52 +220,68 @@ impl<T: Real> Fence<T> {
             let stops = fastest * (self.stopping.reaction_s + fastest * per_square);
             *reach = [longest, stops + longest + self.stopping.margin];
         }
-        reaches
     }
 
-    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near. A number without a limit does
-    /// nothing; false then. `reaches` are those of the same strips and scene; of the strips, those within `part` are weighed.
+    /// Weighs one limit, 0 ≤ number < [`LIMITS`], and keeps what the scene's wish could bring too near, from this strip on until so
+    /// much `work` is done: 1 for an end that is far off, [`NEAR`] for one that is not. `reaches` are those of the same strips and scene.
+    /// The strip to go on from, their number when all are weighed; `None` where this number has no limit.
     pub fn weigh(
         &self,
         number: usize,
         (strips, reaches): (&[Strip<T>], &Reaches<T>),
-        part: Range<usize>,
+        (from, work): (usize, usize),
         scene: &Scene<T>,
         nearby: &mut Nearby<T>,
-    ) -> bool {
-        let mut weighing = Weighing::new(&self.stopping, scene, nearby);
+    ) -> Option<usize> {
         // The teeth alone are one strip.
         let own_ends = if strips.len() < STRIPS { &[[false, true]; STRIPS] } else { &OWN_ENDS };
-        let strips = strips.iter().zip(&reaches.of_strips).zip(own_ends).take(part.end).skip(part.start);
+        let (mut next, mut done) = (from, 0);
         if let Some(Some(space)) = self.limits.half_spaces.get(number) {
+            let mut weighing = Weighing::new(&self.stopping, scene, nearby);
             let seen = space.seen(&scene.base, scene.swing);
-            for ((strip, reach), own) in strips {
-                for (clearance, _) in strip.to_half_space(&seen).iter().zip(own).filter(|&(_, &own)| own) {
-                    if weighing.matters(clearance.distance, reach) {
-                        weighing.keep(clearance, reach);
+            while done < work
+                && let (Some(strip), Some(reach), Some(own)) =
+                    (strips.get(next), reaches.of_strips.get(next), own_ends.get(next))
+            {
+                let side = strip.side(&seen);
+                for (end, &own) in strip.ends.iter().zip(own) {
+                    if own {
+                        let distance = side.distance(end);
+                        done += 1;
+                        if weighing.matters(distance, reach) {
+                            weighing.keep(distance, &side.approach(end), reach);
+                            done += NEAR - 1;
+                        }
                     }
                 }
+                next += 1;
             }
-            return true;
+            return Some(next);
         }
         let ball = number.checked_sub(HALF_SPACES).and_then(|number| self.limits.spheres.get(number));
         if let Some(Some(ball)) = ball {
+            let mut weighing = Weighing::new(&self.stopping, scene, nearby);
             let seen = ball.seen(&scene.base, scene.swing);
-            for ((strip, reach), _) in strips {
+            while done < work
+                && let (Some(strip), Some(reach)) = (strips.get(next), reaches.of_strips.get(next))
+            {
                 let facing = strip.facing(&seen);
+                done += 1;
                 if weighing.matters(facing.distance, reach) {
-                    weighing.keep(&facing.clearance(strip), reach);
+                    weighing.keep(facing.distance, &facing.approach(strip), reach);
+                    done += NEAR - 1;
                 }
+                next += 1;
             }
-            return true;
+            return Some(next);
         }
         match &self.limits.swing {
             Some(range) if number + 1 == LIMITS => {
                 let [per_swing, ..] = scene.transmissions;
                 nearby.turning = Some((range.distances(scene.swing), per_swing));
-                true
+                Some(strips.len())
             }
-            _ => false,
+            _ => None,
         }
     }
 
@@ -270,7 +289,7 @@ impl<T: Real> Fence<T> {
     pub fn weigh_all(&self, strips: &[Strip<T>], scene: &Scene<T>, nearby: &mut Nearby<T>) {
         let reaches = self.reaches(strips, scene);
         for number in 0..LIMITS {
-            self.weigh(number, (strips, &reaches), 0..STRIPS, scene, nearby);
+            self.weigh(number, (strips, &reaches), (0, usize::MAX), scene, nearby);
         }
     }
 
@@ -279,25 +298,17 @@ impl<T: Real> Fence<T> {
     /// that much makes up for another's approach.
     pub fn limit(&self, nearby: &Nearby<T>, wanted: &[T; 4], receding: &[T; 4], moved: &[T; 4]) -> [T; 4] {
         let rates = self.turning_limited(nearby, wanted, moved);
-        let per_square = self.stopping.per_square();
-        let unused = Bound { towards: [T::ZERO; 4], away: [T::ZERO; 4], fastest: T::ZERO };
-        let mut exceeded = [unused; NEARBY + 1];
-        let mut count = 0;
-        for approach in nearby.iter() {
-            let shares = approach.at_most(&rates);
-            let by = shares.map(|share| if share > T::ZERO { share } else { T::ZERO });
-            let towards = sum(by);
-            let room = approach.room - sum(approach.at_most(moved));
-            if towards * (self.stopping.reaction_s + towards * per_square) > room
-                && let Some(slot) = exceeded.get_mut(count)
-            {
-                let away = shares.map(|share| if share > T::ZERO { T::ZERO } else { share });
-                let fastest = self.stopping.speed_within(room);
-                *slot = Bound { towards: by, away: times(away, *receding), fastest };
-                count += 1;
-            }
+        let mut exceeded =
+            Exceeded { bounds: [Bound { shares: [T::ZERO; 4], fastest: T::ZERO }; NEARBY + 1], count: 0 };
+        for approach in nearby.kept() {
+            let room = approach.room - sum(times(approach.by, *moved));
+            exceeded.test(&self.stopping, times(approach.by, rates), room, receding);
         }
-        if count == 0 { rates } else { times(scales(exceeded.get(..count).unwrap_or(&exceeded)), rates) }
+        if let Some(rest) = nearby.rest() {
+            let room = rest.room - sum(rest.at_most(moved));
+            exceeded.test(&self.stopping, rest.at_most(&rates), room, receding);
+        }
+        if exceeded.count == 0 { rates } else { times(exceeded.scales(), rates) }
     }
 
     /// The wanted rates, the swing's kept within its range.
@@ -318,42 +329,75 @@ impl<T: Real> Fence<T> {
     }
 }
 
-/// Every actuator's factor, so that all bounds are kept.
-fn scales<T: Real>(exceeded: &[Bound<T>]) -> [T; 4] {
-    let mut scales = [T::ONE; 4];
-    for _ in 0..ROUNDS {
-        let mut kept = true;
-        for bound in exceeded {
-            let (towards, away) = bound.parts(scales);
-            if towards + away > bound.fastest {
-                // towards > fastest − away ≥ 0
-                let factor = (bound.fastest - away) / towards;
-                for (scale, &share) in scales.iter_mut().zip(&bound.towards) {
-                    *scale = if share > T::ZERO { *scale * factor } else { *scale };
+/// The bounds that are exceeded.
+struct Exceeded<T> {
+    bounds: [Bound<T>; NEARBY + 1],
+    count: usize,
+}
+
+impl<T: Real> Exceeded<T> {
+    /// Notes shares of an approach that are too fast for the room, m.
+    #[inline(always)]
+    fn test(&mut self, stopping: &Stopping<T>, shares: [T; 4], room: T, receding: &[T; 4]) {
+        let towards = sum(shares.map(positive));
+        if towards * (stopping.reaction_s + towards * stopping.per_square()) > room
+            && let Some(slot) = self.bounds.get_mut(self.count)
+        {
+            let reached = times(shares, *receding);
+            for ((slot, share), reached) in slot.shares.iter_mut().zip(shares).zip(reached) {
+                *slot = if share > T::ZERO { share } else { reached };
+            }
+            slot.fastest = stopping.speed_within(room);
+            self.count += 1;
+        }
+    }
+
+    /// Every actuator's factor, so that all bounds are kept.
+    #[inline(always)]
+    fn scales(&self) -> [T; 4] {
+        let bounds = self.bounds.get(..self.count).unwrap_or(&self.bounds);
+        let mut scales = [T::ONE; 4];
+        for _ in 0..ROUNDS {
+            let mut kept = true;
+            for bound in bounds {
+                let shares = times(bound.shares, scales);
+                let approach = sum(shares);
+                if approach > bound.fastest {
+                    let towards = sum(shares.map(positive));
+                    // Summed by itself, so that no rounding lifts it above 0.
+                    let away = sum(shares.map(|share| if share > T::ZERO { T::ZERO } else { share }));
+                    // towards > fastest − away ≥ 0
+                    let factor = (bound.fastest - away) / towards;
+                    for (scale, share) in scales.iter_mut().zip(bound.shares) {
+                        *scale = if share > T::ZERO { *scale * factor } else { *scale };
+                    }
+                    kept = false;
                 }
-                kept = false;
+            }
+            if kept {
+                return scales;
             }
         }
-        if kept {
-            return scales;
+        let mut common = T::ONE;
+        for bound in bounds {
+            let approach = sum(times(bound.shares, scales));
+            if approach * common > bound.fastest {
+                common = bound.fastest / approach;
+            }
         }
+        scales.map(|scale| scale * common)
     }
-    let mut common = T::ONE;
-    for bound in exceeded {
-        let (towards, away) = bound.parts(scales);
-        let approach = towards + away;
-        if approach * common > bound.fastest {
-            common = bound.fastest / approach;
-        }
-    }
-    scales.map(|scale| scale * common)
+}
+
+#[inline(always)]
+fn positive<T: Real>(x: T) -> T {
+    if x > T::ZERO { x } else { T::ZERO }
 }
 
 /// One limit's clearances on their way to what is kept.
 struct Weighing<'a, T> {
     nearby: &'a mut Nearby<T>,
     transmissions: [T; 4],
-    /// The wish as joint rates.
     wish: [T; 4],
     margin: T,
     reaction_s: T,
@@ -364,7 +408,7 @@ impl<'a, T: Real> Weighing<'a, T> {
     fn new(stopping: &Stopping<T>, scene: &Scene<T>, nearby: &'a mut Nearby<T>) -> Self {
         let transmissions = scene.transmissions;
         let (margin, reaction_s, per_square) = (stopping.margin, stopping.reaction_s, stopping.per_square());
-        Self { nearby, transmissions, wish: times(scene.wish, transmissions), margin, reaction_s, per_square }
+        Self { nearby, transmissions, wish: scene.wish, margin, reaction_s, per_square }
     }
 
     /// Notes a distance; whether it is within the strip's reach.
@@ -374,18 +418,15 @@ impl<'a, T: Real> Weighing<'a, T> {
         distance < *reach
     }
 
-    /// Keeps an approach that the wish could make too fast before the strip has gone its way.
+    /// Keeps an approach by the joints' rates that the wish could make too fast before the strip has gone its way.
     #[inline(always)]
-    fn keep(&mut self, clearance: &Clearance<T>, [way, _]: &[T; 2]) {
-        let mut towards = T::ZERO;
-        for (&by, &wish) in clearance.approach.iter().zip(&self.wish) {
-            let share = by * wish;
-            towards = if share > T::ZERO { towards + share } else { towards };
-        }
-        let room = clearance.distance - self.margin;
+    fn keep(&mut self, distance: T, approach: &[T; 4], [way, _]: &[T; 2]) {
+        let by = times(*approach, self.transmissions);
+        let towards = sum(times(by, self.wish).map(positive));
+        let room = distance - self.margin;
         let demand = towards * (self.reaction_s + towards * self.per_square) + *way - room;
         if demand > T::ZERO {
-            self.nearby.keep(clearance, &self.transmissions, room, demand);
+            self.nearby.keep(&Approach { by, room, demand });
         }
     }
 }

@@ -263,17 +263,28 @@ impl<T: Real> Placed<T> {
         self.near_inlined(sphere)
     }
 
+    /// [`Self::near`] of one sphere, in place.
+    #[inline(never)]
+    pub(super) fn near_into(&self, sphere: &Sphere<T>, near: &mut [Near<T>; SEGMENTS]) {
+        self.fill(sphere, near);
+    }
+
     #[inline(always)]
     pub(super) fn near_inlined(&self, sphere: &Sphere<T>) -> [Near<T>; SEGMENTS] {
+        let mut near = [Near { distance: T::ZERO, row: [T::ZERO; 4] }; SEGMENTS];
+        self.fill(sphere, &mut near);
+        near
+    }
+
+    #[inline(always)]
+    fn fill(&self, sphere: &Sphere<T>, near: &mut [Near<T>; SEGMENTS]) {
         let swing = self.swing;
         // The centre seen from the boom pin, in the frame that turns with the swing.
         let centre = Vec2::new(sphere.x * swing.cos + sphere.y * swing.sin - self.a1, sphere.z);
         let lateral = sphere.y * swing.cos - sphere.x * swing.sin;
-        let mut near = [Near { distance: T::ZERO, row: [T::ZERO; 4] }; SEGMENTS];
         for (((near, segment), &radius), &links) in near.iter_mut().zip(&self.segments).zip(&self.radii).zip(&ENDS) {
             *near = self.near_segment(segment, links, radius + sphere.radius, centre, lateral);
         }
-        near
     }
 
     /// The nearest place to a sphere.

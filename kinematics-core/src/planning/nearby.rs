@@ -1,24 +1,36 @@
 //! The approaches a fence follows from one weighing to the next: a fixed number of them one by one, what is more in one bound.
 
-use super::clearance::Clearance;
 use crate::Real;
 
 /// How many approaches are followed one by one.
 pub(super) const NEARBY: usize = 4;
 
-/// Approaches to limits by the rates of the actuators.
+/// An approach to a limit by the rates of the actuators.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Approach<T> {
-    /// The smallest and the largest share of each actuator: the same for a single approach.
+    /// How much each actuator's way brings nearer, m/m or m/rad.
+    pub(super) by: [T; 4],
+    /// The distance less the margin, m.
+    pub(super) room: T,
+    /// How much it exceeds what it has room for, m.
+    pub(super) demand: T,
+}
+
+/// Several approaches in one: what keeps this keeps each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Joined<T> {
+    /// The smallest and the largest share of each actuator.
     low: [T; 4],
     high: [T; 4],
     /// The smallest distance less the margin, m.
     pub(super) room: T,
 }
 
-impl<T: Real> Approach<T> {
-    pub(super) fn new(by: [T; 4], room: T) -> Self {
-        Self { low: by, high: by, room }
+impl<T: Real> Joined<T> {
+    /// Of nothing: the first that joins it is what it becomes.
+    fn nothing() -> Self {
+        let most = most();
+        Self { low: [most; 4], high: [-most; 4], room: most }
     }
 
     /// How much each rate, or each way, brings nearer at most; the sum bounds every approach joined in this one.
@@ -29,25 +41,35 @@ impl<T: Real> Approach<T> {
         [share(l1, h1, r1), share(l2, h2, r2), share(l3, h3, r3), share(l4, h4, r4)]
     }
 
-    /// Both in one: what keeps this keeps either.
-    fn join(&mut self, other: &Self) {
-        for (low, &by) in self.low.iter_mut().zip(&other.low) {
-            *low = if by < *low { by } else { *low };
+    #[inline(always)]
+    fn join(&mut self, other: &Approach<T>) {
+        for ((low, high), &by) in self.low.iter_mut().zip(&mut self.high).zip(&other.by) {
+            if by < *low {
+                *low = by;
+            }
+            if by > *high {
+                *high = by;
+            }
         }
-        for (high, &by) in self.high.iter_mut().zip(&other.high) {
-            *high = if by > *high { by } else { *high };
+        if other.room < self.room {
+            self.room = other.room;
         }
-        self.room = if other.room < self.room { other.room } else { self.room };
     }
+}
+
+/// More than any distance.
+fn most<T: Real>() -> T {
+    T::from_f64(f64::from(f32::MAX))
 }
 
 /// What one weighing of all limits has kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearby<T> {
-    /// With how much each exceeds what it has room for.
-    kept: [(Approach<T>, T); NEARBY],
+    kept: [Approach<T>; NEARBY],
     used: usize,
-    rest: Option<Approach<T>>,
+    rest: Joined<T>,
+    /// Something was joined to the rest.
+    more: bool,
     /// Distances of the swing to the right and the left end of its range, rad, and dθ1 by its actuator's way.
     pub(super) turning: Option<([T; 2], T)>,
     /// The smallest clearance to any half-space or ball, m; the largest number there is without any.
@@ -62,46 +84,45 @@ impl<T: Real> Nearby<T> {
     /// assert_eq!(Nearby::<f32>::none().closest, f32::MAX);
     /// ```
     pub fn none() -> Self {
-        let unused = Approach::new([T::ZERO; 4], T::ZERO);
-        let closest = T::from_f64(f64::from(f32::MAX));
-        Self { kept: [(unused, T::ZERO); NEARBY], used: 0, rest: None, turning: None, closest }
+        let unused = Approach { by: [T::ZERO; 4], room: T::ZERO, demand: T::ZERO };
+        let rest = Joined::nothing();
+        Self { kept: [unused; NEARBY], used: 0, rest, more: false, turning: None, closest: most() }
     }
 
     /// Forgets everything.
     pub fn clear(&mut self) {
-        (self.used, self.rest, self.turning) = (0, None, None);
-        self.closest = T::from_f64(f64::from(f32::MAX));
+        (self.used, self.more, self.turning) = (0, false, None);
+        self.rest = Joined::nothing();
+        self.closest = most();
     }
 
     /// Keeps an approach by itself while there is room, else in place of the least demanding; that one is joined to the rest.
     #[inline(never)]
-    pub(super) fn keep(&mut self, clearance: &Clearance<T>, &[t1, t2, t3, t4]: &[T; 4], room: T, demand: T) {
-        let [a1, a2, a3, a4] = clearance.approach;
-        let approach = Approach::new([a1 * t1, a2 * t2, a3 * t3, a4 * t4], room);
+    pub(super) fn keep(&mut self, approach: &Approach<T>) {
         if let Some(slot) = self.kept.get_mut(self.used) {
-            *slot = (approach, demand);
+            *slot = *approach;
             self.used += 1;
             return;
         }
-        let mut least = demand;
-        let mut place = None;
-        for kept in &mut self.kept {
-            if kept.1 < least {
-                least = kept.1;
-                place = Some(kept);
-            }
-        }
-        let joined = match place {
-            Some(kept) => core::mem::replace(kept, (approach, demand)).0,
-            None => approach,
-        };
-        match &mut self.rest {
-            Some(rest) => rest.join(&joined),
-            None => self.rest = Some(joined),
+        self.more = true;
+        let [a, b, c, d] = &mut self.kept;
+        let less = |x: &Approach<T>, y: &Approach<T>| x.demand < y.demand;
+        let first = if less(b, a) { b } else { a };
+        let second = if less(d, c) { d } else { c };
+        let least = if less(second, first) { second } else { first };
+        if less(least, approach) {
+            self.rest.join(least);
+            *least = *approach;
+        } else {
+            self.rest.join(approach);
         }
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Approach<T>> {
-        self.kept.iter().take(self.used).map(|(approach, _)| approach).chain(&self.rest)
+    pub(super) fn kept(&self) -> &[Approach<T>] {
+        self.kept.get(..self.used).unwrap_or(&self.kept)
+    }
+
+    pub(super) fn rest(&self) -> Option<&Joined<T>> {
+        self.more.then_some(&self.rest)
     }
 }

@@ -4,7 +4,7 @@
 //! may belong to two bodies (a cylinder's do); every end carries its velocity by each joint's rate.
 //!
 //! ```
-//! use kinematics_core::planning::outline::{Outline, OutlineShape, PARTS, Part};
+//! use kinematics_core::planning::outline::{Outline, OutlineShape, PARTS, Part, PlacedOutline};
 //! use kinematics_core::{Cylinders, Machine, PinGeometry};
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! let geometry = PinGeometry::EXACT_MINI;
@@ -15,6 +15,15 @@
 //! let outline = Outline::<f64>::new(&geometry, &shape)?;
 //! let joints = machine.cylinders_to_joints(&Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 })?;
 //! let placed = outline.place(&machine, &joints)?;
+//! // Or into one that is there.
+//! let mut there = PlacedOutline::nowhere();
+//! outline.place_into(&machine, &joints, &mut there)?;
+//! assert_eq!(there, placed);
+//! // Or in two halves.
+//! let mut there = PlacedOutline::nowhere();
+//! outline.place_beams(&joints, &mut there);
+//! outline.place_bucket(&machine, &joints, &mut there)?;
+//! assert_eq!(there, placed);
 //! // The last strip ends at the teeth.
 //! assert_eq!(PARTS.last(), Some(&Part::Bucket));
 //! let [.., back_to_teeth] = &placed.strips;
@@ -195,6 +204,13 @@ pub struct PlacedOutline<T> {
 }
 
 impl<T: Real> PlacedOutline<T> {
+    /// Every strip a point in the origin: of no machine yet.
+    pub fn nowhere() -> Self {
+        let zero = Vec2::new(T::ZERO, T::ZERO);
+        let end = MovingPoint { at: zero, per_joint: [zero; 3] };
+        Self { strips: [Strip { ends: [end, end], radius: T::ZERO, lateral: T::ZERO }; STRIPS] }
+    }
+
     /// The teeth alone, as one point: what a fence would guard that knows the tip only.
     pub fn tip(&self) -> Strip<T> {
         let [.., last] = &self.strips;
@@ -277,46 +293,117 @@ impl<T: Real> Outline<T> {
     /// # Errors
     /// [`PoseError::NoAssembly`] where the bucket's four-bar does not close.
     pub fn place(&self, machine: &Machine<T>, joints: &Joints<T>) -> Result<PlacedOutline<T>, PoseError<T>> {
-        let zero = Vec2::new(T::ZERO, T::ZERO);
-        let (boom, arm) = (joints.boom, joints.boom * joints.arm);
-        let bucket = arm * joints.bucket;
-        let fixed = |at: Vec2<T>| MovingPoint { at, per_joint: [zero; 3] };
-        let boom_pin = self.boom_pin;
-        let on_boom = |v: Vec2<T>| {
-            let from_boom_pin = boom.rotate(v);
-            MovingPoint { at: boom_pin + from_boom_pin, per_joint: [left(from_boom_pin), zero, zero] }
-        };
-        let [knee, arm_pin, b, c] = self.on_boom.map(on_boom);
-        let arm_turned = |turned: Vec2<T>, per_bucket: Vec2<T>| {
-            let at = arm_pin.at + turned;
-            MovingPoint { at, per_joint: [left(at - boom_pin), left(turned), per_bucket] }
-        };
-        let [d, bucket_pin, e, i] = self.on_arm.map(|v| arm_turned(arm.rotate(v), zero));
+        let mut placed = PlacedOutline::nowhere();
+        self.place_into(machine, joints, &mut placed)?;
+        Ok(placed)
+    }
+
+    /// [`Outline::place`] into an outline that is there: copying one costs as much as placing it.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn place_into(
+        &self,
+        machine: &Machine<T>,
+        joints: &Joints<T>,
+        placed: &mut PlacedOutline<T>,
+    ) -> Result<(), PoseError<T>> {
+        self.place_beams(joints, placed);
+        self.place_bucket(machine, joints, placed)
+    }
+
+    /// The first half of [`Outline::place_into`]: boom, arm, and the cylinders of both.
+    pub fn place_beams(&self, joints: &Joints<T>, placed: &mut PlacedOutline<T>) {
+        let frames = Frames::new(self, joints);
+        let [knee, _, b, c] = self.on_boom.map(|v| frames.on_boom(v));
+        let [d, ..] = self.on_arm.map(|v| frames.on_arm(v));
+        let Frames { arm_pin, bucket_pin, .. } = frames;
+        let [lower, upper, behind, before, whole, boom_cylinder, arm_cylinder, ..] = &mut placed.strips;
+        *lower = self.boom.strip(fixed(self.boom_pin), knee);
+        *upper = self.boom.strip(knee, arm_pin);
+        *behind = self.arm.strip(arm_pin, d);
+        *before = self.arm.strip(d, bucket_pin);
+        *whole = self.arm.strip(arm_pin, bucket_pin);
+        *boom_cylinder = self.boom_cylinder.strip(fixed(self.boom_pin + self.boom_base), b);
+        *arm_cylinder = self.cylinder.strip(c, d);
+    }
+
+    /// The second half: the bucket, its linkage and its cylinder.
+    ///
+    /// # Errors
+    /// [`PoseError::NoAssembly`] where the bucket's four-bar does not close.
+    pub fn place_bucket(
+        &self,
+        machine: &Machine<T>,
+        joints: &Joints<T>,
+        placed: &mut PlacedOutline<T>,
+    ) -> Result<(), PoseError<T>> {
+        let frames = Frames::new(self, joints);
+        let Frames { arm, arm_pin, bucket_pin, .. } = frames;
+        let [_, _, e, i] = self.on_arm.map(|v| frames.on_arm(v));
         let common = machine.bucket.common_pin(joints.bucket).map_err(bucket_open)?;
         let [_, bucket_pin_on_arm, ..] = self.on_arm;
-        let j = arm_turned(arm.rotate(bucket_pin_on_arm + common.from_bucket_pin), arm.rotate(common.per_bucket));
+        let turned = arm.rotate(bucket_pin_on_arm + common.from_bucket_pin);
+        let j = frames.arm_turned(turned, arm.rotate(common.per_bucket));
+        let bucket = arm * joints.bucket;
         let [k, back, teeth] = self.on_bucket.map(|v| {
             let turned = bucket.rotate(v);
             let at = bucket_pin.at + turned;
-            MovingPoint { at, per_joint: [left(at - boom_pin), left(at - arm_pin.at), left(turned)] }
+            MovingPoint { at, per_joint: [left(at - self.boom_pin), left(at - arm_pin.at), left(turned)] }
         });
-        Ok(PlacedOutline {
-            strips: [
-                self.boom.strip(fixed(boom_pin), knee),
-                self.boom.strip(knee, arm_pin),
-                self.arm.strip(arm_pin, d),
-                self.arm.strip(d, bucket_pin),
-                self.arm.strip(arm_pin, bucket_pin),
-                self.boom_cylinder.strip(fixed(boom_pin + self.boom_base), b),
-                self.cylinder.strip(c, d),
-                self.cylinder.strip(e, j),
-                self.link.strip(i, j),
-                self.link.strip(j, k),
-                self.bucket.strip(bucket_pin, k),
-                self.bucket.strip(k, back),
-                self.bucket.strip(back, teeth),
-            ],
-        })
+        let [.., bucket_cylinder, rocker, coupler, front, rear, edge] = &mut placed.strips;
+        *bucket_cylinder = self.cylinder.strip(e, j);
+        *rocker = self.link.strip(i, j);
+        *coupler = self.link.strip(j, k);
+        *front = self.bucket.strip(bucket_pin, k);
+        *rear = self.bucket.strip(k, back);
+        *edge = self.bucket.strip(back, teeth);
+        Ok(())
+    }
+}
+
+fn fixed<T: Real>(at: Vec2<T>) -> MovingPoint<T> {
+    MovingPoint { at, per_joint: [Vec2::new(T::ZERO, T::ZERO); 3] }
+}
+
+/// Boom and arm at the joints, with the pins at their ends.
+#[derive(Clone, Copy, Debug)]
+struct Frames<T> {
+    boom_pin: Vec2<T>,
+    boom: Rotor<T>,
+    arm: Rotor<T>,
+    arm_pin: MovingPoint<T>,
+    bucket_pin: MovingPoint<T>,
+}
+
+impl<T: Real> Frames<T> {
+    #[inline(always)]
+    fn new(outline: &Outline<T>, joints: &Joints<T>) -> Self {
+        let (boom_pin, boom, arm) = (outline.boom_pin, joints.boom, joints.boom * joints.arm);
+        let nowhere = fixed(boom_pin);
+        let mut frames = Self { boom_pin, boom, arm, arm_pin: nowhere, bucket_pin: nowhere };
+        let ([_, arm_pin, ..], [_, bucket_pin, ..]) = (outline.on_boom, outline.on_arm);
+        frames.arm_pin = frames.on_boom(arm_pin);
+        frames.bucket_pin = frames.on_arm(bucket_pin);
+        frames
+    }
+
+    #[inline(always)]
+    fn on_boom(&self, v: Vec2<T>) -> MovingPoint<T> {
+        let zero = Vec2::new(T::ZERO, T::ZERO);
+        let from_boom_pin = self.boom.rotate(v);
+        MovingPoint { at: self.boom_pin + from_boom_pin, per_joint: [left(from_boom_pin), zero, zero] }
+    }
+
+    #[inline(always)]
+    fn on_arm(&self, v: Vec2<T>) -> MovingPoint<T> {
+        self.arm_turned(self.arm.rotate(v), Vec2::new(T::ZERO, T::ZERO))
+    }
+
+    #[inline(always)]
+    fn arm_turned(&self, turned: Vec2<T>, per_bucket: Vec2<T>) -> MovingPoint<T> {
+        let at = self.arm_pin.at + turned;
+        MovingPoint { at, per_joint: [left(at - self.boom_pin), left(turned), per_bucket] }
     }
 }
 

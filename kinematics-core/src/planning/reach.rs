@@ -3,7 +3,7 @@
 //! Planning is bounded and spread over ticks: every call of [`Reach::tick`] does one piece of about half an [`Avoid::step`]'s cost.
 //! 1. *Poses*: [`PITCHES`] bucket pitches at the target, before the swing axis and behind it, each by the closed-form inverse; kept are the nearest clear one and
 //!    the clearest. None clear is [`Progress::Blocked`].
-//! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing; kept is the nearest clear one of each arm angle.
+//! 2. *Postures*: a grid of [`GRID`] postures, tried at every obstacle's bearing, one a tick; kept is the nearest clear one of each arm angle.
 //! 3. *Routes*: all of `route.rs`, by their time at the speed limits, the direct one first.
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
@@ -82,12 +82,30 @@ struct Along<T> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase<T, const N: usize> {
-    Poses { pitch: usize, of: usize },
-    Postures { index: usize, best: [Option<Pose<T>>; POSTURES] },
-    Rank { number: usize },
-    Rehearse { along: Along<T>, joints: [Rotor<T>; 4], steps: u32 },
-    Follow { along: Along<T> },
-    End { progress: Progress },
+    Poses {
+        pitch: usize,
+        of: usize,
+    },
+    /// Obstacles before `tried` leave posture `index` clear.
+    Postures {
+        index: usize,
+        tried: usize,
+        best: [Option<Pose<T>>; POSTURES],
+    },
+    Rank {
+        number: usize,
+    },
+    Rehearse {
+        along: Along<T>,
+        joints: [Rotor<T>; 4],
+        steps: u32,
+    },
+    Follow {
+        along: Along<T>,
+    },
+    End {
+        progress: Progress,
+    },
 }
 
 /// One target, its obstacles, and how far the way to it has come.
@@ -144,8 +162,9 @@ pub struct Reach<T, const N: usize> {
     replans: u8,
     /// Routes that arrived in rehearsal and are yet passed over: as many as got stuck before.
     passed_over: u8,
-    /// The first half of a step, done in the tick before.
-    survey: Option<Survey<T, N>>,
+    /// The first half of a step; whether it was done in the tick before.
+    survey: Survey<T, N>,
+    surveyed: bool,
     /// The rates until the next step is complete.
     rates: [T; 4],
 }
@@ -179,7 +198,8 @@ impl<T: Real, const N: usize> Reach<T, N> {
             times: [-T::ONE; ROUTES],
             replans: 0,
             passed_over: 0,
-            survey: None,
+            survey: Survey::none(),
+            surveyed: false,
             rates: [T::ZERO; 4],
         }
     }
@@ -193,6 +213,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
     /// One tick of `dt` s at these joints (swing, boom, arm, bucket).
     #[inline(never)]
     pub fn tick(&mut self, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
+        // The larger phases are worked on where they lie.
         match self.phase {
             Phase::Poses { pitch, of } => {
                 if pitch == 0 {
@@ -201,19 +222,19 @@ impl<T: Real, const N: usize> Reach<T, N> {
                 self.try_pitch(pitch, of);
                 self.planning()
             }
-            Phase::Postures { index, best } => {
-                self.try_posture(index, best);
+            Phase::Postures { .. } => {
+                self.try_posture();
                 self.planning()
             }
             Phase::Rank { number } => {
                 self.rank(number);
                 self.planning()
             }
-            Phase::Rehearse { along, joints, steps } => {
-                self.rehearse(along, joints, steps);
+            Phase::Rehearse { .. } => {
+                self.rehearse();
                 self.planning()
             }
-            Phase::Follow { along } => self.follow(along, joints, dt),
+            Phase::Follow { .. } => self.follow(joints, dt),
             Phase::End { progress } => Told { progress, rates: [T::ZERO; 4], clearance: None },
         }
     }
@@ -234,12 +255,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         self.start = *joints;
         (self.nearest, self.clearest, self.second_pose) = (None, None, false);
         self.passed_over = self.replans;
-        (self.survey, self.rates) = (None, [T::ZERO; 4]);
-    }
-
-    /// Clear by a little more than the step's own stop, so that it arrives.
-    fn is_clear(&self, clearance: T) -> bool {
-        clearance > self.avoid.stop * T::from_f64(1.02)
+        (self.surveyed, self.rates) = (false, [T::ZERO; 4]);
     }
 
     fn try_pitch(&mut self, pitch: usize, of: usize) {
@@ -257,7 +273,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             let joints = [swing, found.boom, found.arm, found.bucket];
             let aim = self.avoid.aim(&joints);
             let clearance = self.avoid.clearance(&joints, &self.obstacles);
-            if self.avoid.within_travel(&aim) && self.is_clear(clearance) {
+            if self.avoid.within_travel(&aim) && is_clear(&self.avoid, clearance) {
                 let time = self.avoid.time(&self.avoid.lack(&self.avoid.aim(&self.start), &aim));
                 if self.nearest.is_none_or(|best| time < best.worth) {
                     self.nearest = Some(Pose { aim, worth: time });
@@ -270,7 +286,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         if pitch + 1 < 2 * of {
             self.phase = Phase::Poses { pitch: pitch + 1, of };
         } else if self.nearest.is_some() {
-            self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
+            self.phase = Phase::Postures { index: 0, tried: 0, best: [None; POSTURES] };
         } else if of == PITCHES {
             self.phase = Phase::Poses { pitch: 0, of: FINER * PITCHES };
         } else {
@@ -284,8 +300,10 @@ impl<T: Real, const N: usize> Reach<T, N> {
         pose.map(|pose| pose.aim)
     }
 
-    fn try_posture(&mut self, index: usize, mut best: [Option<Pose<T>>; POSTURES]) {
+    fn try_posture(&mut self) {
         let Some(goal) = self.goal() else { return self.end(Progress::Blocked) };
+        let Phase::Postures { index: at, tried, best } = &mut self.phase else { return };
+        let index = *at;
         let start = self.avoid.aim(&self.start);
         let share = |n: usize, spacing: f64| T::from_i32(n as i32) * T::from_f64(spacing) - T::from_f64(0.95);
         let (kind, rest) = (index % POSTURES, index / POSTURES);
@@ -295,15 +313,21 @@ impl<T: Real, const N: usize> Reach<T, N> {
             arm.at(share(kind, 1.9 / (POSTURES - 1) as f64)),
             bucket.at(share(rest / 5, 1.9 / 2.0)),
         ];
-        let keep = self.avoid.stop;
-        let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, self.avoid.hull.thickest_m(), keep));
         let [b, a, k] = planar;
-        // At its own bearing a sphere is nearest: clear there is clear at every swing.
-        let clear = self.obstacles.iter().zip(&bearings).all(|(obstacle, bearing)| {
-            self.is_clear(self.avoid.clearance(&[bearing.direction, b, a, k], &[*obstacle]))
-        });
-        let posture = self.avoid.aim(&[start.swing, b, a, k]);
+        let (thickest, keep) = (self.avoid.hull.thickest_m(), self.avoid.stop);
+        let mut clear = true;
+        if let Some(obstacle) = self.obstacles.get(*tried) {
+            // At its own bearing a sphere is nearest: clear there is clear at every swing.
+            let bearing = Bearing::of(obstacle, thickest, keep);
+            clear = is_clear(&self.avoid, self.avoid.clearance(&[bearing.direction, b, a, k], &[*obstacle]));
+            if clear && *tried + 1 < N {
+                *tried += 1;
+                return;
+            }
+        }
+        *tried = 0;
         if clear {
+            let posture = self.avoid.aim(&[start.swing, b, a, k]);
             let over = Aim { swing: goal.swing, places: posture.places };
             let time =
                 self.avoid.time(&self.avoid.lack(&start, &posture)) + self.avoid.time(&self.avoid.lack(&over, &goal));
@@ -312,9 +336,10 @@ impl<T: Real, const N: usize> Reach<T, N> {
             }
         }
         if index + 1 < GRID {
-            self.phase = Phase::Postures { index: index + 1, best };
+            *at = index + 1;
         } else {
             let postures = best.map(|best| best.map(|pose| pose.aim.places));
+            let bearings = self.obstacles.each_ref().map(|o| Bearing::of(o, thickest, keep));
             self.map = Some(Map { start, goal, bearings, postures });
             self.phase = Phase::Rank { number: 0 };
         }
@@ -358,20 +383,23 @@ impl<T: Real, const N: usize> Reach<T, N> {
             self.end(Progress::NoRoute);
         } else {
             self.second_pose = true;
-            self.phase = Phase::Postures { index: 0, best: [None; POSTURES] };
+            self.phase = Phase::Postures { index: 0, tried: 0, best: [None; POSTURES] };
         }
     }
 
-    fn rehearse(&mut self, mut along: Along<T>, joints: [Rotor<T>; 4], steps: u32) {
+    fn rehearse(&mut self) {
         let dt = T::from_f64(REHEARSED_STEP_S);
-        let Some(survey) = self.survey.take() else {
-            self.survey = Some(self.avoid.survey(&joints, &self.obstacles));
+        let Phase::Rehearse { along, joints, steps } = &mut self.phase else { return };
+        if !self.surveyed {
+            self.avoid.survey(joints, &self.obstacles, &mut self.survey);
+            self.surveyed = true;
             return;
-        };
+        }
+        self.surveyed = false;
         let Some(aim) = along.route.aim(along.passed) else { return self.next_route() };
-        let step = self.avoid.choose(&survey, &aim);
+        let step = self.avoid.choose(&self.survey, &aim);
         let last = along.route.is_last(along.passed);
-        if along.stuck_after(&step, dt) || steps >= REHEARSED_STEPS {
+        if along.stuck_after(&step, dt) || *steps >= REHEARSED_STEPS {
             self.next_route();
         } else if last && step.to_go_s < T::from_f64(ARRIVED_S) {
             if self.passed_over > 0 {
@@ -384,32 +412,35 @@ impl<T: Real, const N: usize> Reach<T, N> {
             if !last && step.to_go_s < T::from_f64(PASSED_S) {
                 along.passed += 1;
             }
-            let joints = advanced(&joints, &step.rates, dt);
-            self.phase = Phase::Rehearse { along, joints, steps: steps + 1 };
+            *joints = advanced(joints, &step.rates, dt);
+            *steps += 1;
         }
     }
 
-    fn follow(&mut self, mut along: Along<T>, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
-        let Some(survey) = self.survey.take() else {
-            self.survey = Some(self.avoid.survey(joints, &self.obstacles));
+    fn follow(&mut self, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
+        if !self.surveyed {
+            self.avoid.survey(joints, &self.obstacles, &mut self.survey);
+            self.surveyed = true;
             return Told { progress: Progress::Moving, rates: self.rates, clearance: None };
-        };
+        }
+        self.surveyed = false;
+        let Phase::Follow { along } = &mut self.phase else { return self.planning() };
         let Some(aim) = along.route.aim(along.passed) else { return self.stuck() };
-        let step = self.avoid.choose(&survey, &aim);
+        let step = self.avoid.choose(&self.survey, &aim);
         let told = Told { progress: Progress::Moving, rates: step.rates, clearance: Some(step.clearance) };
-        if along.route.is_last(along.passed) {
-            if self.miss_square(joints) <= self.tolerance * self.tolerance {
-                self.end(Progress::Reached);
-                return Told { progress: Progress::Reached, rates: [T::ZERO; 4], ..told };
-            }
-        } else if step.to_go_s < T::from_f64(PASSED_S) {
+        let last = along.route.is_last(along.passed);
+        if !last && step.to_go_s < T::from_f64(PASSED_S) {
             along.passed += 1;
         }
-        if along.stuck_after(&step, dt + dt) {
+        let stuck = along.stuck_after(&step, dt + dt);
+        if last && self.miss_square(joints) <= self.tolerance * self.tolerance {
+            self.end(Progress::Reached);
+            return Told { progress: Progress::Reached, rates: [T::ZERO; 4], ..told };
+        }
+        if stuck {
             return self.stuck();
         }
         self.rates = step.rates;
-        self.phase = Phase::Follow { along };
         told
     }
 
@@ -431,6 +462,11 @@ impl<T: Real, const N: usize> Reach<T, N> {
         let up = tip.height - self.target.z;
         flat.norm_squared() + up * up
     }
+}
+
+/// Clear by a little more than the step's own stop, so that it arrives.
+fn is_clear<T: Real>(avoid: &Avoid<T>, clearance: T) -> bool {
+    clearance > avoid.stop * T::from_f64(1.02)
 }
 
 impl<T: Real> Along<T> {

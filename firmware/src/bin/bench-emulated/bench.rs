@@ -30,6 +30,7 @@ use crate::coils::coils;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
+use crate::fence::fence;
 
 const RUNS: usize = 101;
 
@@ -324,6 +325,7 @@ fn main() -> ! {
     let balls =
         black_box([Sphere { x: 1.0, y: 1.6, z: 0.8, radius: 0.3 }, Sphere { x: 1.6, y: 0.4, z: -0.6, radius: 0.2 }]);
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
+    fence(&mut out, s, m, along);
     coils(&mut out, s);
     angles(&mut out, s);
     bits(&mut out);

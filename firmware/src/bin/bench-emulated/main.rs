@@ -9,6 +9,9 @@ mod coils;
 #[path = "../../emulated/mod.rs"]
 mod emulated;
 
+#[cfg(target_os = "none")]
+mod fence;
+
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!("bench-emulated runs in the emulator: cargo hil bench");

@@ -26,12 +26,20 @@ pub(super) fn maps() -> Result<Vec<Row>, AnyError> {
         .collect()
 }
 
-/// The whole tick, over every tick of the dig scenario.
-pub(super) fn tick() -> Result<Row, AnyError> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/dig.toml");
+/// The scenarios whose ticks are counted, and their rows' names: one of each kind of motion, and a fence.
+pub(super) const TICKS: [(&str, &str); 4] = [
+    ("tick", "dig"),
+    ("tick_move", "move-least-effort"),
+    ("tick_reach", "obstacle-over"),
+    ("tick_fence", "fence-zx200"),
+];
+
+/// The whole tick, over every tick of a scenario.
+pub(super) fn tick((row, scenario): (&str, &str)) -> Result<Row, AnyError> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/{scenario}.toml"));
     let scenario = Scenario::load(&file)?;
     let image = Image::build("ecu-emulated")?;
-    let mut progress = Progress::new("tick", (scenario.duration_s * 1e3) as u64, 1e3, "s");
+    let mut progress = Progress::new(row, (scenario.duration_s * 1e3) as u64, 1e3, "s");
     let mut emulator = Emulator::with_parameters(&image, &scenario.parameters)?;
     let log = Run::new(&scenario, 1)?.complete(&mut emulator, |done, all| progress.at(done, all))?;
     progress.finish();
@@ -46,7 +54,7 @@ pub(super) fn tick() -> Result<Row, AnyError> {
         .collect();
     counts.sort_unstable();
     let (Some(&max), Some(&median)) = (counts.last(), counts.get(counts.len() / 2)) else {
-        return Err("the dig scenario has no ticks".into());
+        return Err(format!("{row}: the scenario has no ticks").into());
     };
-    Ok(Row { name: "tick".to_owned(), median, max })
+    Ok(Row { name: row.to_owned(), median, max })
 }

@@ -1,0 +1,109 @@
+//! `hil faults`: the fault campaign as a table.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::print_with_json;
+use super::progress::Progress;
+use crate::faults::{Report, Shard, Spread, campaign, cases};
+use crate::machine_file::MachineFile;
+
+/// Arguments of `hil faults`.
+#[derive(Debug, Args)]
+pub struct FaultsArgs {
+    /// Runs of every fault in every situation, 1 to 100000
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    seeds: u32,
+    /// A machine's name, or the path of a machine file
+    #[arg(long, default_value = "zx200")]
+    machine: String,
+    /// Seed of all cases
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Only every n-th case, the i-th first: 0/1 is all
+    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
+    shard: Shard,
+    /// Write the table as JSON to a file, or to standard output with `-`
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    match parts {
+        Some((index, of)) if index < of => Ok(Shard { index, of }),
+        _ => Err("it must be I/N with I below N, such as 0/4".to_owned()),
+    }
+}
+
+type AnyError = Box<dyn std::error::Error>;
+
+/// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 a bound did not hold or a healthy run tripped.
+pub fn main(args: &FaultsArgs) -> ExitCode {
+    let report = match run(args) {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::from(2);
+        }
+    };
+    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
+        eprintln!("error: {error}");
+        return ExitCode::from(1);
+    }
+    ExitCode::from(if report.holds() { 0 } else { 3 })
+}
+
+fn run(args: &FaultsArgs) -> Result<Report, AnyError> {
+    let machine = MachineFile::load(&args.machine)?;
+    let mine = cases(args.seeds).div_ceil(args.shard.of);
+    let progress = Mutex::new(Progress::new(&machine.name, mine, 1.0, "runs"));
+    let report = campaign(&machine, args.seeds, args.seed, args.shard, || {
+        // A poisoned lock only means that another run has panicked: it will tell.
+        if let Ok(mut progress) = progress.lock() {
+            progress.step();
+        }
+    })?;
+    if let Ok(progress) = progress.into_inner() {
+        progress.finish();
+    }
+    Ok(report)
+}
+
+fn table(report: &Report) -> String {
+    let Report { machine, seed, runs, healthy, false_trips, .. } = report;
+    let mut out = format!(
+        "{machine}: {runs} simulated runs, {healthy} of them healthy; {false_trips} false trips (seed {seed})\n  {:<22} {:>5} {:>5} {:>7} \
+         {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>7}  bound\n",
+        "fault", "seen", "not", "wait", "p50", "p99", "max", "[ms] |", "p50", "p99", "max [mm]"
+    );
+    let spread = |spread: Option<Spread>| match spread {
+        Some(Spread { p50, p99, max }) => [p50, p99, max].map(|x| format!("{x:.0}")),
+        None => ["–"; 3].map(str::to_owned),
+    };
+    for row in &report.faults {
+        let wait = row.observable_ms.map_or("–".to_owned(), |ms| format!("{ms:.0}"));
+        let [d50, d99, d] = spread(row.detect_ms);
+        let [t50, t99, t] = spread(row.tip_travel_mm);
+        let bound = match (row.bound_ms, row.bound_held) {
+            (Some(ms), Some(true)) => format!("{ms:.0} ms, held"),
+            (Some(ms), _) => format!("{ms:.0} ms, NOT HELD"),
+            (None, _) => "none".to_owned(),
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "  {:<22} {:>5} {:>5} {wait:>7} {d50:>6} {d99:>6} {d:>6}      | {t50:>6} {t99:>6} {t:>7}   {bound}",
+            row.name, row.detected, row.undetected
+        );
+    }
+    out.push_str("not promised to be seen:\n");
+    for row in report.faults.iter().filter(|row| row.bound_ms.is_none()) {
+        let _ = writeln!(out, "  {}: {}", row.name, row.reason.unwrap_or_default());
+    }
+    out
+}

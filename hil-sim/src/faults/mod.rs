@@ -1,0 +1,57 @@
+//! The fault campaign: every fault in every situation, thousands of runs; what is seen, how soon, and how far the tip still goes.
+
+mod kind;
+mod situation;
+mod spoil;
+mod tally;
+mod trial;
+
+use rayon::prelude::*;
+
+use crate::machine_file::MachineFile;
+
+pub use kind::{Bus, Cause, KINDS, Kind, Sensor};
+pub use situation::Situation;
+pub use tally::{Report, Row, Spread};
+
+/// A part of a campaign: case i belongs to shard i modulo `of`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// 0 to `of` − 1.
+    pub index: u64,
+    /// At least 1.
+    pub of: u64,
+}
+
+impl Shard {
+    /// Everything.
+    pub const WHOLE: Self = Self { index: 0, of: 1 };
+}
+
+/// Cases of a campaign: every fault, and nothing wrong, in every situation, `seeds` times.
+pub fn cases(seeds: u32) -> u64 {
+    (KINDS.len() as u64 + 1) * Situation::ALL.len() as u64 * u64::from(seeds)
+}
+
+/// Runs the campaign's part; `done` is called after each run. The same cases give the same results in any split.
+///
+/// # Errors
+/// The machine cannot be simulated.
+pub fn campaign(
+    machine: &MachineFile,
+    seeds: u32,
+    seed: u64,
+    shard: Shard,
+    done: impl Fn() + Sync,
+) -> Result<Report, String> {
+    let mine: Vec<u64> = (0..cases(seeds)).filter(|case| case % shard.of == shard.index).collect();
+    let found: Vec<_> = mine
+        .into_par_iter()
+        .map(|index| {
+            let found = trial::run(machine, seed, index)?;
+            done();
+            Ok(found)
+        })
+        .collect::<Result<_, String>>()?;
+    Ok(Report::of(&machine.name, seed, &found))
+}
