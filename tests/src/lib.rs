@@ -9,6 +9,7 @@
 //! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`can`]: the controller's node on a bench bus;
+//! - [`plant`]: plants of the shipped machines, levers as currents, motions timed;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
@@ -21,6 +22,7 @@ pub mod machines;
 pub mod measure;
 pub mod oracle;
 pub mod papers;
+pub mod plant;
 pub mod promises;
 pub mod rates;
 pub mod rig;

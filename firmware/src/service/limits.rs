@@ -26,6 +26,8 @@ impl JogParameters {
     }
 }
 
+/// Share of full-scale current below which a healthy coil cannot be told from an open one: most of its voltage is the freewheel's drop.
+const LEAST: f32 = 0.05;
 /// The stroke's ends stay this far away while a valve is searched, m.
 const MARGIN_M: f32 = 0.02;
 /// A swing motor turns this far to either side while its valve is searched, rad.
@@ -107,7 +109,7 @@ impl SpoolLimits {
     /// How to search this spool's valve.
     pub(crate) fn search(&self) -> ValveSearchParameters {
         let [low, high] = self.place.room;
-        ValveSearchParameters::for_cylinder(low, high)
+        ValveSearchParameters { start: LEAST, ..ValveSearchParameters::for_cylinder(low, high) }
     }
 
     /// It drives a cylinder, whose stroke has ends.
@@ -140,6 +142,8 @@ impl SpoolLimits {
     /// A jog's current within its limit, A.
     pub(crate) fn jog(&self, current_a: f32) -> f32 {
         let [extend, retract] = self.jog_a;
-        limited(current_a, -retract, extend)
+        let current_a = limited(current_a, -retract, extend);
+        let [least_extend, least_retract] = self.full_scale_a.map(|full_scale_a| LEAST * full_scale_a);
+        if current_a < least_extend && current_a > -least_retract { 0.0 } else { current_a }
     }
 }

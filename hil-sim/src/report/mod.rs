@@ -1,13 +1,16 @@
 //! What a run looks like: the short table, and the report folder.
 //!
 //! - [`table()`] — the short table after a run;
+//! - [`write_calibration`] — the folder of a calibration by command: `calibration.html`, `calibration.json`;
 //! - [`write_coil`] — the folder of the coil current loop: `coil.html`, `coil.json`;
+//! - [`write_plant`] — the folder of a hydraulic plant: `plant.html`, `plant.json`, an SVG a stroke;
 //! - [`write`](fn@write) — the folder of a run: `report.html`, `linkage.svg`, `log.csv`, `summary.json`;
 //! - [`draw_only`] — the folder of a dig that is drawn but not run: `report.html`, `linkage.svg`, `dig.csv`.
 //!
 //! Inside, a `figures` module says what each figure shows and one file of it draws them all; `series` makes long series
 //! short; `html` is the page and escapes every text; `run` and `dig` put it together.
 
+mod calibration;
 mod coil;
 mod csv;
 mod dig;
@@ -15,6 +18,7 @@ mod figures;
 mod html;
 mod machine;
 mod planar_arm;
+mod plant;
 mod run;
 mod scene;
 mod series;
@@ -22,10 +26,12 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use calibration::write_calibration;
 pub use coil::write_coil;
 pub use dig::draw_only;
 pub use machine::write_machine;
 pub use planar_arm::{planar_arm_table, write_planar_arm};
+pub use plant::write_plant;
 pub use run::write;
 pub use scene::write_scene;
 pub use table::table;

@@ -1,8 +1,8 @@
 //! Every valve of a machine searched through the pins: found against true, and the courses of current and speed.
 
-use firmware::TICKS_PER_S;
 use firmware::io::SPOOLS;
 use firmware::service::Task;
+use firmware::{Fault, TICKS_PER_S};
 use serde::Serialize;
 
 use super::{FoundValves, Workshop, on_spool};
@@ -65,6 +65,8 @@ pub struct Search {
     pub phase: &'static str,
     /// Why.
     pub reason: &'static str,
+    /// The controller's latched fault.
+    pub fault: Option<&'static str>,
     /// s
     pub duration_s: f64,
     /// Extend, retract; none where it gave up.
@@ -93,6 +95,43 @@ impl Calibration {
     }
 }
 
+impl Calibration {
+    /// For people.
+    pub fn to_table(&self) -> String {
+        let mut out = format!(
+            "calibration of {} by command, through the pins (simulation), valves of seed {}\n\n\
+             spool   direction   dead band: true    found    off   gain: true    found     off\n",
+            self.machine, self.seed
+        );
+        for search in &self.searches {
+            if search.rows.is_empty() {
+                let fault = search.fault.map_or(String::new(), |fault| format!(", {fault}"));
+                out += &format!(
+                    "{:<8}{} after {:.0} s: {}{fault}\n",
+                    search.spool, search.phase, search.duration_s, search.reason
+                );
+            }
+            for row in &search.rows {
+                out += &format!(
+                    "{:<8}{:<12}{:>13.2} %{:>7.2} %{:>+6.2} %{:>11.3}{:>9.3}{:>+7.2} %\n",
+                    row.spool,
+                    row.direction,
+                    100.0 * row.dead_band,
+                    100.0 * row.found_dead_band,
+                    100.0 * row.dead_band_error(),
+                    row.gain,
+                    row.found_gain,
+                    100.0 * row.gain_error(),
+                );
+            }
+        }
+        let longest = self.searches.iter().map(|search| search.duration_s).fold(0.0, f64::max);
+        out + &format!(
+            "\nlongest search {longest:.0} s; promised: dead band within 1 % of full scale, gain within 3 %\n"
+        )
+    }
+}
+
 /// SplitMix64.
 struct Dice(u64);
 
@@ -110,7 +149,7 @@ impl Dice {
 /// scenario's, dead times of 40 to 200 ms and lags of 10 to 80 ms.
 pub fn with_random_valves(scenario: &Scenario, seed: u64) -> Scenario {
     let mut dice = Dice(seed);
-    let mut scenario = scenario.clone();
+    let mut scenario = Scenario { hydraulic: None, ..scenario.clone() };
     for model in &mut scenario.plant {
         model.dead_band = [0; 2].map(|_| dice.within(0.05, 0.37));
         model.full_speed = model.full_speed.map(|speed| speed * dice.within(0.5, 1.5));
@@ -132,10 +171,11 @@ pub fn search(scenario: &Scenario, spool: usize, seed: u64) -> Result<Search, Ru
     let mut workshop = Workshop::new(scenario, middle(&scenario.plant), seed)?;
     workshop.begin(on_spool(Task::ValveSearch, spool as u8));
     let began = workshop.now();
-    let mut samples = Vec::new();
+    let (mut samples, mut fault) = (Vec::new(), None);
     let mut before = workshop.plant.positions()[spool];
     while !matches!(workshop.heard.phase, "done" | "aborted" | "refused") && workshop.now() - began < PATIENCE {
-        workshop.ticks(SAMPLE_TICKS);
+        let outputs = workshop.ticks(SAMPLE_TICKS);
+        fault = outputs.and_then(|outputs| outputs.fault).map(Fault::name);
         let [extend, retract] = workshop.plant.solenoids()[spool].each_ref().map(|solenoid| solenoid.current_a());
         let position = workshop.plant.positions()[spool];
         samples.push(Sample {
@@ -153,6 +193,7 @@ pub fn search(scenario: &Scenario, spool: usize, seed: u64) -> Result<Search, Ru
         spool: SPOOLS[spool],
         phase: workshop.heard.phase,
         reason: workshop.heard.reason,
+        fault,
         duration_s: samples.last().map_or(0.0, |sample| sample.time_s),
         rows: found.map_or_else(Vec::new, |found| rows(SPOOLS[spool], model, &found)),
         samples,
