@@ -124,10 +124,10 @@ fn no_message_speaks_for_another() {
         bench.tick(&[mode(counter, Mode::Levers), boom, arm]);
         bench.ticks(19);
     }
-    let [swing, boom, arm, bucket, tip, mode, slope, pressures @ ..] = all(&bench);
+    let [swing, boom, arm, bucket, tip, mode, slope, others @ ..] = all(&bench);
     assert_eq!((boom, arm, mode), (Validity::BadChecksum, Validity::OutOfRange, Validity::Fresh));
     assert_eq!([swing, bucket, tip, slope], [Validity::Stale; 4]);
-    assert_eq!(pressures, [Validity::Stale; 3]);
+    assert_eq!(others, [Validity::Stale; 4]);
 }
 
 #[test]
