@@ -151,7 +151,10 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
-            let wanted = self.motion.follow(&self.machine, running, &intent, &pose, &sensed.lengths)?;
+            let wanted = {
+                let asked = (&intent, inputs.slope);
+                self.motion.follow(&self.machine, running, asked, &pose, &sensed.lengths)?
+            };
             let fenced = match &mut self.fence {
                 Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },

@@ -23,6 +23,12 @@ pub enum Request {
     Move,
     /// Bring the tip to the target of the parameters, past their obstacles.
     Reach,
+    /// Move the tip at the velocity asked for.
+    TipVelocity,
+    /// The arm's lever moves the arm; boom and bucket keep the tip on the plane of the parameters.
+    Grade,
+    /// Follow the path of the parameters.
+    Path,
 }
 
 /// Speeds of the four actuators: cylinders m/s, extending positive; a swing motor rad/s, counter-clockwise positive, a swing

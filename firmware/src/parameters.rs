@@ -12,7 +12,10 @@ use serde::{Deserialize, Serialize};
 use crate::apart::apart;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
+use crate::grade::GradeParameters;
+use crate::law::LawParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
+use crate::path::{PathParameters, PathViolation};
 use crate::service::JogParameters;
 use crate::travel::Violation;
 use crate::valve::coil_stage::CoilStageParameters;
@@ -84,6 +87,8 @@ pub struct MotionParameters {
     pub start_tolerance_m: f32,
     /// How far each cylinder may stray from its reference, m.
     pub following_error_m: f32,
+    /// The coordinated law of path, grade and tip velocity; without it there are none of them.
+    pub law: Option<LawParameters>,
 }
 
 /// The parameter record.
@@ -122,6 +127,10 @@ pub struct Parameters {
     /// The target to reach past obstacles, where there is one.
     #[serde(deserialize_with = "apart")]
     pub reach: Option<ReachParameters>,
+    /// The path, where there is one.
+    pub path: Option<PathParameters>,
+    /// The plane to grade, where there is one.
+    pub grade: Option<GradeParameters>,
 }
 
 /// A target for the tip and what stands around, in the base frame.
@@ -166,6 +175,8 @@ pub enum ParameterError {
     Move(MoveError),
     /// What planning past obstacles lacks.
     Avoid(AvoidError),
+    /// The path leaves reach or stroke.
+    Path(PathViolation),
 }
 
 impl From<GeometryError> for ParameterError {
@@ -187,6 +198,7 @@ impl fmt::Display for ParameterError {
             }
             Self::Move(error) => write!(f, "`move`: {error}"),
             Self::Avoid(error) => write!(f, "`reach`: {error}"),
+            Self::Path(PathViolation { segment, error }) => write!(f, "`path` on segment {segment}: {error}"),
             Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
         }
     }
@@ -257,7 +269,9 @@ impl Parameters {
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
         self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
-        self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)
+        self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)?;
+        self.path.as_ref().map_or(Ok(()), PathParameters::validate)?;
+        self.grade.as_ref().map_or(Ok(()), GradeParameters::validate)
     }
 }
 
@@ -300,7 +314,8 @@ impl MotionParameters {
         within("motion.smallest_speed_mps", self.smallest_speed_mps.into(), [0.0, 0.1])?;
         within("motion.start_tolerance_m", self.start_tolerance_m.into(), [0.001, 0.5])?;
         // A start farther off than the following error would be a fault in the first tick.
-        within("motion.following_error_m", self.following_error_m.into(), [self.start_tolerance_m.into(), 0.5])
+        within("motion.following_error_m", self.following_error_m.into(), [self.start_tolerance_m.into(), 0.5])?;
+        self.law.as_ref().map_or(Ok(()), LawParameters::validate)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use firmware::can::command::TipVelocity;
 use firmware::io::Solenoids;
 use firmware::{Ecu, Inputs, Intent, Outputs, Parameters, Request, State};
 use hil_sim::coil_trial::REFERENCE;
@@ -48,6 +49,8 @@ pub struct Rig {
     pub request: Request,
     /// The levers.
     pub levers: [i16; 4],
+    /// The tip's velocity.
+    pub tip: TipVelocity,
     /// The operator's messages are fresh.
     pub sending: bool,
     /// The solenoids.
@@ -98,6 +101,7 @@ impl Rig {
             },
             request: Request::Neutral,
             levers: [0; 4],
+            tip: TipVelocity::ZERO,
             sending: true,
             solenoids: [[Solenoid::new(REFERENCE, 20.0); 2]; 4],
             adc: CurrentAdc { full_scale_a: sense.full_scale_a.into(), zero_code: sense.zero_code, noise_a: 0.0 },
@@ -116,7 +120,8 @@ impl Rig {
 
     /// One tick.
     pub fn tick(&mut self) -> Outputs {
-        self.inputs.command = self.sending.then_some(Intent { request: self.request, levers: self.levers });
+        self.inputs.command =
+            self.sending.then_some(Intent { request: self.request, levers: self.levers, tip: self.tip });
         self.inputs.coil_codes = self.coil_codes();
         let outputs = self.ecu.tick(&self.inputs);
         self.drive(&outputs);

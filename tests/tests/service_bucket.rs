@@ -44,7 +44,7 @@ fn dig(workshop: &mut Workshop) -> Vec<Outputs> {
     workshop.rest();
     workshop.enable = true;
     workshop.ticks(20);
-    workshop.intent = Some(Intent { request: Request::Dig, levers: [0; 4] });
+    workshop.intent = Some(Intent { request: Request::Dig, ..Intent::NEUTRAL });
     (0..4000).map(|_| workshop.tick()).collect()
 }
 

@@ -86,7 +86,7 @@ fn it_needs_a_fresh_command_neutral_levers_and_the_enable_switch_turned_on_in_th
     let mut busy = workshop();
     busy.rest();
     busy.ask(jog(BOOM as u8, 0.4));
-    busy.intent = Some(Intent { request: Request::Levers, levers: [0, 20_000, 0, 0] });
+    busy.intent = Some(Intent { request: Request::Levers, levers: [0, 20_000, 0, 0], ..Intent::NEUTRAL });
     busy.ticks(100);
     busy.enable = true;
     busy.ticks(300);
@@ -114,7 +114,7 @@ fn everything_that_ends_it_opens_the_cut_off_and_a_new_one_needs_the_whole_seque
         ("enable off", |w| w.enable = false, "aborted", "enable_released"),
         (
             "levers",
-            |w| w.intent = Some(Intent { request: Request::Levers, levers: [0, 9_000, 0, 0] }),
+            |w| w.intent = Some(Intent { request: Request::Levers, levers: [0, 9_000, 0, 0], ..Intent::NEUTRAL }),
             "aborted",
             "not_neutral",
         ),
@@ -159,7 +159,7 @@ fn a_jog_commanded_at_work_changes_nothing_there() {
     workshop.ticks(500);
     workshop.enable = true;
     workshop.ticks(10);
-    workshop.intent = Some(Intent { request: Request::Levers, levers: [0, 0, 16_000, 0] });
+    workshop.intent = Some(Intent { request: Request::Levers, levers: [0, 0, 16_000, 0], ..Intent::NEUTRAL });
     workshop.ticks(300);
     let before = duties(&workshop)[2];
     workshop.request = Some(jog(BOOM as u8, 0.4));

@@ -268,7 +268,7 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
                 sensor_supply_code,
                 // Mostly no more than a released coil shows.
                 coil_codes: coil_codes.map(|spool| spool.map(|code| if code % 8 == 0 { code } else { 2048 })),
-                command: sending.then_some(Intent { request, levers }),
+                command: sending.then_some(Intent { request, levers, ..Intent::NEUTRAL }),
                 slope: None,
                 pressures_pa: [[None; 2]; 3],
                 converters_sound,

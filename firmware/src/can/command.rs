@@ -69,6 +69,9 @@ pub struct TipVelocity {
 }
 
 impl TipVelocity {
+    /// Standstill.
+    pub const ZERO: Self = Self { x_mps: 0.0, z_mps: 0.0, pitch_radps: 0.0 };
+
     pub(crate) fn of(payload: u64) -> Result<Self, Unusable> {
         let [x, z, pitch, _, _] = TIP_VELOCITY.decode(payload);
         Ok(Self { x_mps: x?, z_mps: z?, pitch_radps: pitch? })
@@ -92,12 +95,25 @@ pub enum Mode {
     Move,
     /// Hold still.
     Hold,
+    /// The arm's valve command; boom and bucket hold the plane.
+    Grade,
+    /// Follow the path.
+    Path,
 }
 
 impl Mode {
     /// Every mode, in the order of its codes.
-    pub const ALL: [Self; 7] =
-        [Self::Neutral, Self::Levers, Self::TipVelocity, Self::Dig, Self::Reach, Self::Move, Self::Hold];
+    pub const ALL: [Self; 9] = [
+        Self::Neutral,
+        Self::Levers,
+        Self::TipVelocity,
+        Self::Dig,
+        Self::Reach,
+        Self::Move,
+        Self::Hold,
+        Self::Grade,
+        Self::Path,
+    ];
 
     /// As on the bus.
     pub const fn code(self) -> u32 {

@@ -1,8 +1,9 @@
-//! Another bucket: everything built from the geometry is built again, a step a tick, so that no tick runs over.
+//! Another bucket: everything built from the geometry is built again, a step a tick; only the plans of motion may take longer than one.
 
 use core::borrow::BorrowMut;
 
 use super::Ecu;
+use crate::dig::Dig;
 use crate::fence::Fence;
 use crate::motion::Followers;
 use crate::store::StoredRecord;
@@ -31,7 +32,7 @@ enum Step {
     Fence,
     /// The dig's travel, from this tick of it on.
     Dig(u32),
-    /// The move and the target.
+    /// Everything that motion precomputes: it may take longer than a tick, which the tick after does not hold against it.
     Plan,
 }
 
@@ -93,20 +94,19 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
                 Some(Step::Dig(0))
             }
             Step::Dig(from) => {
-                let Some(dig) = self.motion.dig() else { return Ok(Some(Step::Plan)) };
-                if violation_among(&self.machine, dig, from, DIG_TICKS).is_some() {
+                let Some(dig) = p.dig.as_ref().map(Dig::new) else { return Ok(Some(Step::Plan)) };
+                if violation_among(&self.machine, &dig, from, DIG_TICKS).is_some() {
                     return Err(Unusable);
                 }
                 let next = from.saturating_add(DIG_TICKS);
                 Some(if next > dig.ticks() { Step::Plan } else { Step::Dig(next) })
             }
-            Step::Plan if p.planned_move.is_some() || p.reach.is_some() => {
+            Step::Plan => {
                 let mut mounted = *p;
                 mounted.geometry = buckets.geometry().ok_or(Unusable)?;
                 self.motion.plan(&mounted, &self.machine).map_err(|_| Unusable)?;
                 None
             }
-            Step::Plan => None,
         })
     }
 

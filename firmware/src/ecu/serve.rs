@@ -43,11 +43,11 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     }
 
     fn service_tick(&mut self, inputs: &Inputs) -> Outputs {
+        let mut seen = *inputs;
+        let drives = self.service.before(&mut seen);
         if self.service.run() == Run::Mounting {
             self.mount_on();
         }
-        let mut seen = *inputs;
-        let drives = self.service.before(&mut seen);
         let supply_v = self.sensing.supply_v(&seen);
         let sensor_supply_v = self.sensing.sensor_supply_v(&seen);
         let stage_fault = self.sense(&seen).err();

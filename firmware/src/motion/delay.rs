@@ -2,12 +2,10 @@
 
 use core::num::NonZeroU32;
 
-/// Values kept.
-const KEPT: usize = 256;
-
-/// A delay of up to 1001 ticks. Of a delay above 254 ticks every second to fourth value is kept and a line drawn between.
-#[derive(Clone, Debug)]
-pub(super) struct DelayLine<const N: usize> {
+/// A delay of up to 1001 ticks of `N` values at once. Of a delay longer than what is kept every second, third, … is kept and a line
+/// drawn between. `KEPT` is a power of two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DelayLine<const N: usize, const KEPT: usize = 256> {
     /// The first at tick 0; a ring.
     kept: [[f32; N]; KEPT],
     /// At tick 0 and before.
@@ -17,7 +15,7 @@ pub(super) struct DelayLine<const N: usize> {
     between: u32,
 }
 
-impl<const N: usize> DelayLine<N> {
+impl<const N: usize, const KEPT: usize> DelayLine<N, KEPT> {
     /// Without delay.
     pub(super) const fn new() -> Self {
         Self { kept: [[0.0; N]; KEPT], origin: [0.0; N], ticks: 0, between: 0 }
@@ -63,7 +61,7 @@ mod tests {
     #[test]
     fn every_delay_up_to_a_thousand_ticks_gives_back_the_value_of_then() {
         for delay in 0..=1001_u32 {
-            let mut line = DelayLine::new();
+            let mut line = DelayLine::<_, 256>::new();
             line.set_delay(delay);
             for tick in 1..=2100_u32 {
                 let then = tick.saturating_sub(delay) as f32;
@@ -76,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_line_used_before_starts_over_at_its_origin() {
-        let mut line = DelayLine::new();
+        let mut line = DelayLine::<_, 256>::new();
         line.set_delay(300);
         for tick in 1..=1500 {
             line.pass(tick, [7.0]);

@@ -48,10 +48,6 @@ impl DigFollower {
         Some(Self { dig, start, dig_ticks, preview_ticks, mode: Mode::Hold, tracker: Tracker::new(p) })
     }
 
-    pub(super) fn dig(&self) -> &Dig<f32> {
-        &self.dig
-    }
-
     /// Back to holding: the next dig starts over.
     pub(super) fn reset(&mut self) {
         self.mode = Mode::Hold;

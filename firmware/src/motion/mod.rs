@@ -1,12 +1,23 @@
 //! Fourth stage: what the operator wants → actuator speeds. One file a mode: `dig` follows a trajectory, `planned` a move, `reach` goes to
-//! a target past obstacles, `levers` obeys.
+//! a target past obstacles, `levers` obeys; `path`, `grade` and `tip_velocity` share the law of `coordinated`.
 
+mod coordinated;
 mod creep;
 mod delay;
 mod dig;
+mod grade;
+mod law;
 mod levers;
+mod limits;
+mod modes;
+mod path;
 mod planned;
+mod profile;
 mod reach;
+mod resolve;
+mod slew;
+mod sum;
+mod tip_velocity;
 mod tracker;
 
 use core::borrow::BorrowMut;
@@ -14,6 +25,7 @@ use core::cell::Cell;
 
 use kinematics_core::{Cylinders, Machine, Pose};
 
+use crate::can::command::Slope;
 use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
@@ -22,8 +34,10 @@ use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use dig::{DigFollower, Seen};
 use levers::Levers;
+use modes::Modes;
 use planned::MoveFollower;
 use reach::ReachFollower;
+use slew::Slew;
 
 /// What the motion stage hands on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,12 +65,14 @@ pub struct Followers {
     planned: MoveFollower,
     /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
     reach: Option<Cell<ReachFollower>>,
+    /// What the coordinated modes share; the cell for the same reason.
+    modes: Option<Cell<Modes>>,
 }
 
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None }
+        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None, modes: None }
     }
 
     /// Plans what the parameters ask for.
@@ -64,8 +80,18 @@ impl Followers {
         if let Some(planned) = &p.planned_move {
             self.planned.plan(&p.motion, machine, planned).map_err(ParameterError::Move)?;
         }
+        self.plan_modes(p, machine)?;
         self.reach = None;
         p.reach.as_ref().map_or(Ok(()), |reach| self.plan_reach(reach, p, machine))
+    }
+
+    #[inline(never)]
+    fn plan_modes(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        self.modes = None;
+        if let Some(law) = &p.motion.law {
+            self.modes = Some(Cell::new(Modes::new(law, p, machine)?));
+        }
+        Ok(())
     }
 
     // Not inlined, so that the stack holds either's planning but not both.
@@ -92,6 +118,7 @@ impl Default for Followers {
 pub struct Motion<F = Followers> {
     dig: Option<DigFollower>,
     levers: Levers,
+    slew: Option<Slew>,
     followers: F,
     /// The request of the last tick; another one starts over.
     request: Request,
@@ -113,26 +140,33 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         Ok(Self {
             dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, seen)),
             levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
+            slew: p.motion.law.as_ref().map(Slew::new),
             followers,
             request: Request::Neutral,
         })
     }
 
-    /// The dig, where there is one.
-    pub(crate) fn dig(&self) -> Option<&Dig<f32>> {
-        self.dig.as_ref().map(DigFollower::dig)
-    }
-
-    /// Plans move and target anew, for another geometry.
+    /// Precomputes everything anew, for another geometry; the dig has been tried before.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub(crate) fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
-        self.followers.borrow_mut().plan(p, machine)
+        let followers = self.followers.borrow_mut();
+        followers.plan(p, machine)?;
+        let dig = p.dig.as_ref().map(Dig::new);
+        self.dig = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut followers.seen));
+        Ok(())
     }
 
-    /// Back to holding: whatever is asked for next starts over.
+    /// Back to standing still: whatever is asked for next starts over.
     pub(crate) fn reset(&mut self) {
+        self.start_over();
+        if let Some(slew) = &mut self.slew {
+            slew.reset();
+        }
+    }
+
+    fn start_over(&mut self) {
         self.request = Request::Neutral;
         if let Some(dig) = &mut self.dig {
             dig.reset();
@@ -141,6 +175,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         followers.planned.reset();
         if let Some(reach) = &mut followers.reach {
             reach.get_mut().reset();
+        }
+        if let Some(modes) = &mut followers.modes {
+            modes.get_mut().reset();
         }
     }
 
@@ -152,29 +189,43 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         &mut self,
         machine: &Machine<f32>,
         running: bool,
-        intent: &Intent,
+        (intent, slope): (&Intent, Option<Slope>),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        if !running || intent.request != self.request {
-            self.reset();
-        }
         if !running {
+            self.reset();
             return Ok(Wanted::hold(lengths));
         }
+        if intent.request != self.request {
+            self.start_over();
+        }
         self.request = intent.request;
-        match intent.request {
-            Request::Neutral => Ok(Wanted::hold(lengths)),
+        let wanted = match intent.request {
+            Request::Neutral => Wanted::hold(lengths),
             Request::Dig => {
                 let seen = &mut self.followers.borrow_mut().seen;
-                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, seen)
+                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, seen)?
             }
-            Request::Move => self.followers.borrow_mut().planned.follow(lengths),
+            Request::Move => self.followers.borrow_mut().planned.follow(lengths)?,
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;
-                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)
+                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
             }
-            Request::Levers => Ok(Wanted { speeds: self.levers.speeds(intent.levers), ..Wanted::hold(lengths) }),
-        }
+            Request::Levers => {
+                let asked = self.levers.speeds(intent.levers);
+                let modes = self.followers.borrow_mut().modes.as_mut();
+                let speeds = modes.map_or(asked, |modes| modes.get_mut().cushion(lengths, asked));
+                Wanted { speeds, ..Wanted::hold(lengths) }
+            }
+            Request::TipVelocity | Request::Grade | Request::Path => {
+                let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
+                let arm_mps = self.levers.speeds(intent.levers).arm;
+                let modes = self.followers.borrow_mut().modes.as_mut().ok_or(Fault::NotConfigured)?;
+                modes.get_mut().follow(machine, (intent, arm_mps, slope), speeds, pose, lengths)?
+            }
+        };
+        let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
+        Ok(Wanted { speeds, ..wanted })
     }
 }

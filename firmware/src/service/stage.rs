@@ -32,6 +32,8 @@ pub(crate) enum Run {
     Driving,
     Ended,
     Mounting,
+    /// The tick after: the last step may have taken longer than its tick.
+    Mounted,
 }
 
 /// What the stage looks at before a task begins.
@@ -154,8 +156,12 @@ impl Service {
     pub(crate) fn before(&mut self, inputs: &mut Inputs) -> Option<(usize, f32)> {
         match self.run {
             Run::Idle => None,
-            Run::Mounting => {
-                inputs.command = None;
+            Run::Mounting | Run::Mounted => {
+                // Nothing can move, and a step may take its time.
+                (inputs.command, inputs.overrun) = (None, false);
+                if self.run == Run::Mounted {
+                    self.run = Run::Idle;
+                }
                 None
             }
             Run::Waiting => {
@@ -252,7 +258,7 @@ impl Service {
 
     /// A bucket is mounted: the one asked for, or again the one before.
     pub(crate) fn mounted(&mut self, bucket: u8, as_asked: bool) {
-        self.run = Run::Idle;
+        self.run = Run::Mounted;
         self.answer.bucket = Some(bucket);
         self.answer.progress = 1.0;
         (self.answer.phase, self.answer.reason) =

@@ -2,11 +2,11 @@
 
 use firmware::can::CanFrame;
 use firmware::can::address::Addresses;
-use firmware::can::command::Mode;
+use firmware::can::command::{Mode, TipVelocity};
 use firmware::can::message::{Message, Sender};
 use firmware::can::table::received::{
     ARM_COMMAND, ARM_PRESSURES, BOOM_COMMAND, BOOM_PRESSURES, BUCKET_COMMAND, BUCKET_PRESSURES, MODE, PERIOD_MS,
-    SERVICE, SLOPE, SWING_COMMAND,
+    SERVICE, SLOPE, SWING_COMMAND, TIP_VELOCITY,
 };
 use firmware::service::ServiceRequest;
 use firmware::simulated::FRAMES_IN;
@@ -82,6 +82,10 @@ impl Bus {
             2 => Some(self.valve(&BOOM_COMMAND, boom)),
             3 => Some(self.valve(&ARM_COMMAND, arm)),
             4 => Some(self.valve(&BUCKET_COMMAND, bucket)),
+            5 => {
+                let TipVelocity { x_mps, z_mps, pitch_radps } = intent.tip;
+                Some(self.sent(&TIP_VELOCITY, [x_mps, z_mps, pitch_radps, 0.0, 0.0]))
+            }
             _ => None,
         }
     }
@@ -117,5 +121,8 @@ fn mode(request: Request) -> Mode {
         Request::Levers => Mode::Levers,
         Request::Reach => Mode::Reach,
         Request::Move => Mode::Move,
+        Request::TipVelocity => Mode::TipVelocity,
+        Request::Grade => Mode::Grade,
+        Request::Path => Mode::Path,
     }
 }

@@ -55,6 +55,12 @@ pub enum RunError {
     /// The operator asks for a move that the parameters do not hold.
     #[error("`parameters.planned_move`: the operator asks for a move, but there is none")]
     NoMove,
+    /// The operator asks for a path that the parameters do not hold.
+    #[error("`parameters.path`: the operator asks for a path, but there is none")]
+    NoPath,
+    /// The machine cannot stand at the path's first knot.
+    #[error("`knot[0]`: {0}")]
+    PathStart(kinematics_core::PoseError<f64>),
     /// The machine cannot stand at the move's start.
     #[error("`move`: at the start: {0}")]
     MoveStart(kinematics_core::PoseError<f64>),
@@ -200,7 +206,13 @@ fn start(
     swing: SwingDrive,
 ) -> Result<[f64; 4], RunError> {
     match (&scenario.task, dig) {
-        (Task::Levers { start, .. } | Task::Reach { start }, _) => {
+        (
+            Task::Levers { start, .. }
+            | Task::Reach { start }
+            | Task::Grade { start, .. }
+            | Task::TipVelocity { start, .. },
+            _,
+        ) => {
             let swing = swing.position(start.swing_deg.to_radians()).map_err(RunError::Swing)?;
             Ok([swing, start.boom_m, start.arm_m, start.bucket_m])
         }
@@ -210,6 +222,14 @@ fn start(
             let tip = PlaneTip { reach, height, pitch: Rotor::from_degrees(planned.start_pitch_deg) };
             let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&tip).map_err(RunError::MoveStart)?;
             Ok([swing.position(0.0).map_err(RunError::Swing)?, boom, arm, bucket])
+        }
+        (Task::Path, _) => {
+            let path = scenario.parameters.path.as_ref().ok_or(RunError::NoPath)?;
+            let [Some(first), ..] = path.knots else { return Err(RunError::NoPath) };
+            let tip = PlaneTip { reach: first.x_m, height: first.z_m, pitch: Rotor::from_degrees(first.pitch_deg) };
+            let Cylinders { boom, arm, bucket } = machine.tip_to_cylinders(&tip).map_err(RunError::PathStart)?;
+            let swing = swing.position(first.swing_deg.to_radians()).map_err(RunError::Swing)?;
+            Ok([swing, boom, arm, bucket])
         }
         (Task::Dig, dig) => {
             let dig = dig.ok_or(RunError::NoDig)?;

@@ -14,7 +14,7 @@ pub struct Operator {
 }
 
 /// What the operator does at a moment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doing {
     /// The enable switch.
     pub enable: bool,
@@ -40,7 +40,7 @@ impl Operator {
         let now = |kind| self.events.has(kind, time_s);
         let working = time_s >= self.begin_s && !now(Kind::Neutral);
         let request = if working { self.task.request() } else { Request::Neutral };
-        let intent = Intent { request, levers: self.task.levers(time_s) };
+        let intent = Intent { request, levers: self.task.levers(time_s), tip: self.task.tip(time_s) };
         Doing {
             enable: time_s >= self.enable_s && !now(Kind::EnableOff),
             emergency_stop: now(Kind::EmergencyStop),

@@ -102,6 +102,9 @@ fn reach(reach: &file::Reach, obstacles: &[file::Obstacle]) -> Result<ReachParam
 
 /// The one task of the file.
 fn task(file: &mut ScenarioFile) -> Result<Task, String> {
+    if let Some(task) = super::modes::task(file)? {
+        return Ok(task);
+    }
     let moves = std::mem::take(&mut file.lever);
     if file.planned_move.is_some() {
         let alone = file.dig.is_none() && moves.is_empty() && file.start.is_none();
@@ -169,7 +172,11 @@ fn coils(
 pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
     let g = &machine.geometry;
     let task = task(&mut file)?;
-    if let Task::Levers { start, .. } | Task::Reach { start } = &task {
+    if let Task::Levers { start, .. }
+    | Task::Reach { start }
+    | Task::Grade { start, .. }
+    | Task::TipVelocity { start, .. } = &task
+    {
         start_ranges(start, g)?;
     }
     let p = &file.plant;
@@ -198,6 +205,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             smallest_speed_mps: m.smallest_speed_mps as f32,
             start_tolerance_m: m.start_tolerance_m as f32,
             following_error_m: m.following_error_m as f32,
+            law: file.law.map(|law| law.parameters()),
         },
         jog: JogParameters { max_current_a: file.jog.map(|jog| jog.max_current_a as f32) },
         dig: file.dig.as_ref().map(dig),
@@ -208,6 +216,8 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             .transpose()?,
         planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
         reach: file.reach.as_ref().map(|reach| self::reach(reach, &file.obstacle)).transpose()?,
+        path: file.path.map(|path| path.parameters(&file.knot)).transpose()?,
+        grade: file.grade.map(|grade| grade.parameters()),
     };
     parameters.validate().map_err(|error| error.to_string())?;
     Ok(Scenario {

@@ -63,6 +63,10 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
     for (i, obstacle) in s.obstacle.iter().enumerate() {
         obstacle_ranges(i, obstacle)?;
     }
+    s.law.map_or(Ok(()), |law| law.check())?;
+    for (i, tip) in s.tip.iter().enumerate() {
+        tip.check(s.duration_s).map_err(|what| format!("`tip[{i}]`: {what}"))?;
+    }
     for (i, lever) in s.lever.iter().enumerate() {
         lever.check(s.duration_s).map_err(|what| format!("`lever[{i}]`: {what}"))?;
     }

@@ -4,8 +4,9 @@ use serde::Deserialize;
 
 use super::event::Event;
 use super::fence::FenceTable;
+use super::modes::{GradeTable, KnotTable, LawTable, PathTable};
 use super::plant::Plant;
-use super::task::{LeverMove, Start};
+use super::task::{LeverMove, Start, TipMove};
 use crate::toml_text::{Tag, strictly};
 
 const TAGS: [Tag; 5] = [
@@ -33,8 +34,15 @@ pub(super) struct ScenarioFile {
     pub(super) reach: Option<Reach>,
     #[serde(default)]
     pub(super) obstacle: Vec<Obstacle>,
+    pub(super) path: Option<PathTable>,
+    #[serde(default)]
+    pub(super) knot: Vec<KnotTable>,
+    pub(super) grade: Option<GradeTable>,
+    #[serde(default)]
+    pub(super) tip: Vec<TipMove>,
     pub(super) motion: Motion,
     pub(super) jog: Option<Jog>,
+    pub(super) law: Option<LawTable>,
     pub(super) plant: Plant,
     pub(super) fence: Option<FenceTable>,
     #[serde(default)]

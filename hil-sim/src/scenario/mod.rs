@@ -7,6 +7,7 @@ mod check;
 mod event;
 mod fence;
 mod file;
+mod modes;
 mod plant;
 mod task;
 
@@ -20,7 +21,7 @@ use crate::plant::{ActuatorModel, CoilModel};
 
 pub(crate) use check::within;
 pub use event::{Event, Events, Kind};
-pub use task::{LeverMove, Start, Task};
+pub use task::{LeverMove, Start, Task, TipMove};
 
 /// A scenario, checked, with everything a run needs.
 #[derive(Clone, Debug)]

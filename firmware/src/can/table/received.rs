@@ -57,8 +57,17 @@ pub static TIP_VELOCITY: Message<5> = Message {
 };
 
 /// Names of the modes.
-pub const MODES: [(u32, &str); 7] =
-    [(0, "neutral"), (1, "levers"), (2, "tip_velocity"), (3, "dig"), (4, "reach"), (5, "move"), (6, "hold")];
+pub const MODES: [(u32, &str); 9] = [
+    (0, "neutral"),
+    (1, "levers"),
+    (2, "tip_velocity"),
+    (3, "dig"),
+    (4, "reach"),
+    (5, "move"),
+    (6, "hold"),
+    (7, "grade"),
+    (8, "path"),
+];
 
 /// What the operator wants done.
 pub static MODE: Message<3> = Message {

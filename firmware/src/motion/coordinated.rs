@@ -1,0 +1,106 @@
+//! What trajectory, grade and tip velocity share: from a place ahead to speeds that follow it, within every limit.
+
+use kinematics_core::{Cylinders, Machine, Pose, Rotor};
+
+use super::Wanted;
+use super::law::Law;
+use super::limits::Limits;
+use crate::fault::Fault;
+use crate::io::{Speeds, limited};
+use crate::law::LawParameters;
+
+/// Where a mode wants the actuators a preview from now.
+pub(super) struct Ahead {
+    /// Where it began.
+    pub(super) start: Cylinders<f32>,
+    pub(super) lengths: Cylinders<f32>,
+    /// Speeds of swing (rad/s), boom, arm, bucket.
+    pub(super) feed_forward: [f32; 4],
+    /// Swing at the start and turned since, turns; `None` where the swing stays as it is.
+    pub(super) swing: Option<[f32; 2]>,
+}
+
+/// The law and the limits it coordinates within.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coordination {
+    pub(super) law: Law,
+    pub(super) limits: Limits,
+    share: f32,
+    /// What stopping takes, s²/m: half over the acceleration.
+    stopping: [f32; 3],
+    /// Speeds of the last tick.
+    pub(super) speeds: [f32; 4],
+}
+
+impl Coordination {
+    pub(super) fn new(law: Law, limits: Limits, p: &LawParameters) -> Self {
+        let [_, boom, arm, bucket] = p.acceleration;
+        let stopping = [boom, arm, bucket].map(|acceleration| 0.5 / acceleration);
+        Self { law, limits, share: 1.0 - p.reserve, stopping, speeds: [0.0; 4] }
+    }
+
+    /// Speed of the swing's actuator for a rad/s of swing: 1 of a motor, the moment arm of a cylinder.
+    pub(super) fn swing_lever(&self, machine: &Machine<f32>, pose: &Pose<f32>) -> Result<f32, Fault> {
+        let Some(cylinder) = machine.swing_cylinder() else { return Ok(1.0) };
+        let length = cylinder.length(pose.swing).map_err(|_| Fault::Geometry)?;
+        cylinder.moment_arm(length).map_err(|_| Fault::Geometry)
+    }
+
+    /// One factor for all speeds (swing rad/s): within full speeds, pump flow, and what stops before the ends of the strokes.
+    pub(super) fn factor(&self, [swing, boom, arm, bucket]: [f32; 4], lever: f32, ahead: &Cylinders<f32>) -> f32 {
+        let speeds = [swing * lever, boom, arm, bucket];
+        let factor = self.limits.factor(&speeds, self.share);
+        let before_ends = self.limits.before_ends(ahead, &speeds);
+        if before_ends < factor { before_ends } else { factor }
+    }
+
+    /// Where the cylinders will stand when what is under way and slowing down is done; the law is begun from there.
+    pub(super) fn begin(&mut self, lengths: &Cylinders<f32>, preview_s: f32) -> Cylinders<f32> {
+        let [_, boom, arm, bucket] = self.speeds;
+        let mut longest_s = 0.0;
+        let [of_boom, of_arm, of_bucket] = self.stopping;
+        let ends = self.limits.ends_m();
+        let mut stand = |length: f32, speed: f32, stopping: f32, [longest, shortest]: [f32; 2]| {
+            let size = if speed < 0.0 { -speed } else { speed };
+            let stopping_s = 2.0 * stopping * size;
+            if stopping_s > longest_s {
+                longest_s = stopping_s;
+            }
+            limited(length + speed * (preview_s + stopping * size), shortest, longest)
+        };
+        let [boom_ends, arm_ends, bucket_ends] = ends;
+        let start = Cylinders {
+            boom: stand(lengths.boom, boom, of_boom, boom_ends),
+            arm: stand(lengths.arm, arm, of_arm, arm_ends),
+            bucket: stand(lengths.bucket, bucket, of_bucket, bucket_ends),
+        };
+        self.law.begin((longest_s * crate::TICKS_PER_S as f32) as u32);
+        start
+    }
+
+    /// Closes the loop: speeds that bring the actuators to where `ahead` was a preview ago.
+    pub(super) fn close(
+        &mut self,
+        ahead: &Ahead,
+        lever: f32,
+        pose: &Pose<f32>,
+        lengths: &Cylinders<f32>,
+    ) -> Result<Wanted, Fault> {
+        let Ahead { start, lengths: then, feed_forward, swing } = ahead;
+        let [first, turned] = swing.unwrap_or([0.0; 2]);
+        let moved = [turned, then.boom - start.boom, then.arm - start.arm, then.bucket - start.bucket];
+        let [turned, boom, arm, bucket] = self.law.reference(moved);
+        let reference = Cylinders { boom: start.boom + boom, arm: start.arm + arm, bucket: start.bucket + bucket };
+        let off = match swing {
+            // The sine stands for the angle.
+            Some(_) => pose.swing.to_vec().cross(Rotor::from_turns(first + turned).to_vec()),
+            None => 0.0,
+        };
+        let errors =
+            [off, reference.boom - lengths.boom, reference.arm - lengths.arm, reference.bucket - lengths.bucket];
+        let [swing, boom, arm, bucket] = self.law.speeds(*feed_forward, errors)?;
+        let speeds = [swing * lever, boom, arm, bucket];
+        let factor = self.limits.factor(&speeds, 1.0);
+        Ok(Wanted { speeds: Speeds::from_array(speeds.map(|speed| speed * factor)), reference, dig_tick: 0 })
+    }
+}

@@ -1,0 +1,165 @@
+//! The control law of trajectory, grade and tip velocity.
+//!
+//! A mode says where the actuators shall be a preview (dead time and lag) from now, and how fast they go there: the feed-forward.
+//! What is measured now is compared with where the reference was a preview ago, less the corrections given since, whose effect is
+//! still to come (a Smith predictor of an integrator behind a dead time). So the gain need not be low for the dead time's sake:
+//!
+//! ```text
+//! lacking = (reference − measured) − ∫ corrections of the last preview
+//! speed   = feed-forward + gain · lacking + what this direction of the spool has been found to lack
+//! ```
+//!
+//! The last term is learnt from `lacking` while the actuator moves; it is an error of the valve map, kept for each direction, and not
+//! among the corrections under way: at a steady speed the error itself goes to zero.
+
+use super::creep::Creep;
+use super::delay::DelayLine;
+use crate::fault::Fault;
+use crate::io::limited;
+use crate::law::LawParameters;
+use crate::parameters::MotionParameters;
+use crate::{TICK_S, TICKS_PER_S};
+
+/// An error is left alone up to the rest zone, and from then on up to so many of it.
+const LEAVES_REST: f32 = 3.0;
+
+/// One actuator.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    /// What extending and retracting lack, m/s: both positive where the valve gives too little.
+    bias: [f32; 2],
+    /// Sum of the corrections since the start, m.
+    given: f32,
+    /// The same a preview ago.
+    given_then: f32,
+    /// Not left alone within the rest zone.
+    awake: bool,
+    creep: Creep,
+}
+
+impl Channel {
+    const NEW: Self = Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST };
+}
+
+/// The law's state. Swing, boom, arm, bucket in every array.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Law {
+    gain_per_s: f32,
+    integral_per_tick: f32,
+    bias_limit: f32,
+    correction_limit: f32,
+    rest_zone: f32,
+    smallest_speed: f32,
+    following_errors: [f32; 4],
+    start_tolerance_m: f32,
+    preview_ticks: u32,
+    /// Until this tick nothing is corrected.
+    quiet_until: u32,
+    tick: u32,
+    channels: [Channel; 4],
+    /// Places ahead relative to the start, and corrections given.
+    delay: DelayLine<8, 128>,
+}
+
+impl Law {
+    pub(super) fn new(motion: &MotionParameters, p: &LawParameters) -> Self {
+        let cylinder = motion.following_error_m;
+        let preview_ticks = (motion.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
+        let mut delay = DelayLine::new();
+        delay.set_delay(preview_ticks);
+        Self {
+            gain_per_s: motion.gain_per_s,
+            integral_per_tick: p.integral_per_s2 * TICK_S,
+            bias_limit: p.bias_limit_mps,
+            correction_limit: p.correction_limit_mps,
+            rest_zone: p.rest_zone_m,
+            smallest_speed: motion.smallest_speed_mps,
+            following_errors: [p.swing_following_error_rad, cylinder, cylinder, cylinder],
+            start_tolerance_m: motion.start_tolerance_m,
+            preview_ticks,
+            quiet_until: 0,
+            tick: 0,
+            channels: [Channel::NEW; 4],
+            delay,
+        }
+    }
+
+    /// How far ahead modes have to look, ticks.
+    pub(super) fn preview_ticks(&self) -> u32 {
+        self.preview_ticks
+    }
+
+    /// Starts over; what the valves were found to lack is kept. Nothing is corrected for `quiet` ticks after the preview.
+    pub(super) fn begin(&mut self, quiet: u32) {
+        self.tick = 0;
+        self.quiet_until = self.preview_ticks.saturating_add(quiet);
+        for channel in &mut self.channels {
+            *channel = Channel { bias: channel.bias, ..Channel::NEW };
+        }
+    }
+
+    /// Whether every cylinder is near enough to where a path starts.
+    pub(super) fn check_start(&self, errors: [f32; 4]) -> Result<(), Fault> {
+        let [_, cylinders @ ..] = errors;
+        let near = |error: f32| error >= -self.start_tolerance_m && error <= self.start_tolerance_m;
+        if cylinders.into_iter().all(near) { Ok(()) } else { Err(Fault::NotAtStart) }
+    }
+
+    /// Takes this tick's place ahead, relative to the start, and tells that of a preview ago: the reference of now.
+    pub(super) fn reference(&mut self, ahead: [f32; 4]) -> [f32; 4] {
+        self.tick = self.tick.saturating_add(1);
+        let [a, b, c, d] = ahead;
+        let [e, f, g, h] = self.channels.each_ref().map(|channel| channel.given);
+        let [a, b, c, d, given @ ..] = self.delay.pass(self.tick, [a, b, c, d, e, f, g, h]);
+        for (channel, given) in self.channels.iter_mut().zip(given) {
+            channel.given_then = given;
+        }
+        [a, b, c, d]
+    }
+
+    /// Speeds, from the feed-forward and reference − measured.
+    pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4]) -> Result<[f32; 4], Fault> {
+        let quiet = self.tick <= self.quiet_until;
+        let mut speeds = [0.0; 4];
+        for (index, (speed, (feed, error))) in speeds.iter_mut().zip(feed_forward.into_iter().zip(errors)).enumerate() {
+            let limit = self.following_errors.get(index).copied().unwrap_or(0.0);
+            let strays = error < -limit || error > limit;
+            if strays && !quiet {
+                return Err(Fault::FollowingError);
+            }
+            *speed = self.speed(index, feed, if quiet { 0.0 } else { error });
+        }
+        Ok(speeds)
+    }
+
+    #[inline(always)]
+    fn speed(&mut self, index: usize, feed: f32, error: f32) -> f32 {
+        let Some(channel) = self.channels.get_mut(index) else { return 0.0 };
+        let lacking = error - (channel.given - channel.given_then);
+        if feed == 0.0 {
+            let zone = if channel.awake { self.rest_zone } else { LEAVES_REST * self.rest_zone };
+            channel.awake = lacking < -zone || lacking > zone;
+            if !channel.awake {
+                channel.creep = Creep::REST;
+                return 0.0;
+            }
+        } else {
+            channel.awake = true;
+        }
+        let correction = limited(self.gain_per_s * lacking, -self.correction_limit, self.correction_limit);
+        let asked = feed + correction;
+        let [extend, retract] = &mut channel.bias;
+        let (bias, asked_forward, feed_forward, lacking_forward) =
+            if asked >= 0.0 { (extend, asked, feed, lacking) } else { (retract, -asked, -feed, -lacking) };
+        // An error of the map shows only where the actuator really moves.
+        if feed_forward > self.smallest_speed {
+            *bias = limited(*bias + self.integral_per_tick * lacking_forward, -self.bias_limit, self.bias_limit);
+        }
+        // What is lacking less may stop the actuator but not turn it round.
+        let forward = asked_forward + *bias;
+        let forward = if forward > 0.0 { forward } else { 0.0 };
+        let speed = channel.creep.pass(if asked >= 0.0 { forward } else { -forward }, self.smallest_speed);
+        channel.given += (if speed == 0.0 { 0.0 - feed } else { correction }) * TICK_S;
+        speed
+    }
+}

@@ -1,0 +1,75 @@
+//! The coordinated modes of one machine: whichever is asked for, the law is the same.
+
+use kinematics_core::{Cylinders, Machine, Pose};
+
+use super::Wanted;
+use super::coordinated::Coordination;
+use super::grade::GradeFollower;
+use super::law::Law;
+use super::limits::Limits;
+use super::path::PathFollower;
+use super::tip_velocity::TipFollower;
+use crate::can::command::Slope;
+use crate::command::Intent;
+use crate::fault::Fault;
+use crate::io::{Request, Speeds};
+use crate::law::LawParameters;
+use crate::parameters::{ParameterError, Parameters};
+
+/// Path, grade and tip velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Modes {
+    shared: Coordination,
+    path: Option<PathFollower>,
+    grade: Option<GradeFollower>,
+    tip: TipFollower,
+}
+
+impl Modes {
+    pub(super) fn new(law: &LawParameters, p: &Parameters, machine: &Machine<f32>) -> Result<Self, ParameterError> {
+        let path = p.path.as_ref().map(|path| PathFollower::new(path, machine)).transpose();
+        let preview_s = p.motion.preview_s;
+        Ok(Self {
+            shared: Coordination::new(Law::new(&p.motion, law), Limits::new(law, &p.coils.valves(), &p.geometry), law),
+            path: path.map_err(ParameterError::Path)?,
+            grade: p.grade.as_ref().map(|grade| GradeFollower::new(grade, preview_s, law)),
+            tip: TipFollower::new(preview_s, law),
+        })
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.tip.reset();
+        if let Some(path) = &mut self.path {
+            path.reset();
+        }
+        if let Some(grade) = &mut self.grade {
+            grade.reset();
+        }
+    }
+
+    /// Lever speeds, slow enough before the ends of the strokes.
+    pub(super) fn cushion(&self, lengths: &Cylinders<f32>, speeds: Speeds) -> Speeds {
+        self.shared.limits.cushion(lengths, speeds)
+    }
+
+    /// One tick of the mode asked for; `speeds` are those of the last tick, `arm_mps` what the arm's lever asks for.
+    pub(super) fn follow(
+        &mut self,
+        machine: &Machine<f32>,
+        (intent, arm_mps, slope): (&Intent, f32, Option<Slope>),
+        speeds: [f32; 4],
+        pose: &Pose<f32>,
+        lengths: &Cylinders<f32>,
+    ) -> Result<Wanted, Fault> {
+        let shared = &mut self.shared;
+        shared.speeds = speeds;
+        match intent.request {
+            Request::TipVelocity => self.tip.follow(machine, shared, &intent.tip, pose, lengths),
+            Request::Grade => {
+                let grade = self.grade.as_mut().ok_or(Fault::NotConfigured)?;
+                grade.follow(machine, shared, (arm_mps, slope), pose, lengths)
+            }
+            _ => self.path.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, shared, pose, lengths),
+        }
+    }
+}
