@@ -103,7 +103,7 @@ fn short_frames_run_out_and_say_so() {
 #[test]
 fn a_sender_that_has_no_value_is_believed_at_once() {
     let [signal, ..] = MODE.signals;
-    for code in [7, 13, signal.error(), signal.not_available()] {
+    for code in [9, 13, signal.error(), signal.not_available()] {
         let mut bench = digging();
         bench.tick(&[from(&MODE, 4, MODE.pack([code, 0, 0]))]);
         assert_eq!((bench.inbox().mode().value, bench.inbox().mode().validity), (None, Validity::OutOfRange), "{code}");
