@@ -10,6 +10,7 @@ use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::apart::apart;
+use crate::diagnosis::DiagnosisParameters;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::grade::GradeParameters;
@@ -110,6 +111,9 @@ pub struct Parameters {
     pub supply: Supply,
     /// Supply of the position sensors.
     pub sensor_supply: Supply,
+    /// What a healthy machine is like.
+    #[serde(deserialize_with = "apart")]
+    pub diagnosis: DiagnosisParameters,
     /// Motion.
     #[serde(deserialize_with = "apart")]
     pub motion: MotionParameters,
@@ -264,6 +268,7 @@ impl Parameters {
         self.supply.validate([(full_scale, [10.0, 100.0]), (min, [6.0, 60.0]), (max, [6.0, 60.0])])?;
         let [full_scale, min, max] = ["sensor_supply.full_scale_v", "sensor_supply.min_v", "sensor_supply.max_v"];
         self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
+        self.diagnosis.validate()?;
         self.motion.validate()?;
         self.jog.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;

@@ -35,7 +35,7 @@ fn at_the_dig(scenario: &Scenario, record: &'static StoredRecord, built: usize, 
     let Cylinders { boom, arm, bucket: curl } = machine.tip_to_cylinders(&dig.tip(0.0)).expect("within reach");
     let mut workshop = Workshop::new(scenario, [0.0, boom, arm, curl], 1).expect("a machine");
     let parameters = record.parameters_for(built).expect("a bucket");
-    workshop.controller = Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("parameters");
+    workshop.install(Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("parameters"));
     workshop.controller.set_buckets(record, built as u8);
     workshop
 }

@@ -41,7 +41,7 @@ const BOOM: usize = 1;
 /// In the middle of its strokes, on a controller that has these parameters while the machine is the scenario's.
 fn workshop(scenario: &Scenario, parameters: &Parameters) -> Workshop {
     let mut workshop = Workshop::new(scenario, middle(&scenario.plant), 1).expect("a machine");
-    workshop.controller = Controller::new(parameters, Addresses::DEFAULT, &NAME).expect("parameters");
+    workshop.install(Controller::new(parameters, Addresses::DEFAULT, &NAME).expect("parameters"));
     workshop
 }
 

@@ -50,9 +50,15 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         }
         let supply_v = self.sensing.supply_v(&seen);
         let sensor_supply_v = self.sensing.sensor_supply_v(&seen);
-        let stage_fault = self.sense(&seen).err();
-        let watched = Watched { supply_v, sensor_supply_v, coil: self.coil_fault, stage_fault };
+        let jumped = self.diagnosis.in_service(&inputs.codes);
+        let stage_fault = jumped.or(self.sense(&seen).err());
+        // A calibration may stand still for long; a jog ends by itself.
+        let watched = Watched { supply_v, sensor_supply_v, coil: self.coil_fault, stage_fault, moving: true };
+        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
         let gate = self.supervisor.judge(&seen, &watched);
+        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
+            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
+        }
         self.service.after(gate, self.supervisor.state());
 
         let driven = self.valve.drive_at_current(gate, drives.unwrap_or((0, 0.0)), supply_v, &seen.coil_codes);
@@ -60,7 +66,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let fenced = Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE };
         // Beyond a known end the length is not measured, and so the pose is none.
         let beyond = (seen.codes != inputs.codes).then_some(Fault::Geometry);
-        self.outputs(gate, stage_fault.or(beyond), &Wanted::hold(&self.lengths), &fenced, &driven)
+        self.outputs((gate, seen.overrun), stage_fault.or(beyond), &Wanted::hold(&self.lengths), &fenced, &driven)
     }
 
     /// Sensing and pose; motion and fence start over when service ends.

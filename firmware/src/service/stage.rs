@@ -5,7 +5,7 @@
 //!  ▲                                          │                                            │
 //!  │◀──── withdrawn, stale, changed, fault ───┘      done, failed, withdrawn, stale, changed, enable off,
 //!  │                                                          levers moved, fault
-//!  └────────────────────── the enable switch is off ── Ended ◀─────────────────────────────┘
+//!  └────────────────────── enable off, a second ago ── Ended ◀─────────────────────────────┘
 //! Idle ── a bucket, disabled ──▶ Mounting ── mounted or refused ──▶ Idle
 //! ```
 //! While `Ended` lasts the supervisor is told that the enable switch is off; while `Mounting` lasts, that there is no command: neither can
@@ -23,6 +23,9 @@ use crate::fault::State;
 use crate::io::{Inputs, Request};
 use crate::parameters::Parameters;
 use crate::supervisor::Gate;
+
+/// What moved has come to rest after so long: dead time, spool and oil together.
+const SETTLE_TICKS: u16 = 1000;
 
 /// Where the stage is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +60,8 @@ pub struct Service {
     touches: MeasureUp,
     touched: f32,
     answer: Answer,
+    /// Ticks since a task ended.
+    settled: u16,
 }
 
 impl Service {
@@ -70,6 +75,7 @@ impl Service {
             touches: MeasureUp::new(),
             touched: 0.0,
             answer: Answer::NONE,
+            settled: 0,
         }
     }
 
@@ -109,7 +115,7 @@ impl Service {
         let moves_nothing = matches!(task, Task::Touch | Task::MeasureUp);
         let disabled = matches!(now.state, State::Locked | State::Ready) && !inputs.enable && !inputs.cut_off_closed;
         let refusal = match now.state {
-            State::Fault => Some(Reason::Fault),
+            State::Fault | State::Stopped | State::SelfTest => Some(Reason::Fault),
             _ if !moves_nothing && !disabled => Some(Reason::Enabled),
             _ => self.enter(request, now).err(),
         };
@@ -172,11 +178,11 @@ impl Service {
                 None
             }
             Run::Ended => {
-                if inputs.enable {
-                    inputs.enable = false;
-                } else {
+                self.settled = self.settled.saturating_add(1);
+                if !inputs.enable && self.settled >= SETTLE_TICKS {
                     self.run = Run::Idle;
                 }
+                inputs.enable = false;
                 None
             }
             Run::Driving => self.drive(inputs),
@@ -235,14 +241,14 @@ impl Service {
         let done = reason == Reason::None || matches!(self.procedure, Procedure::Jog(_)) && reason == Reason::Withdrawn;
         self.answer.phase = if done { Phase::Done } else { Phase::Aborted };
         self.answer.reason = if done { Reason::None } else { reason };
-        (self.run, self.procedure) = (Run::Ended, Procedure::None);
+        (self.run, self.procedure, self.settled) = (Run::Ended, Procedure::None, 0);
     }
 
     /// What the supervisor made of it.
     pub(crate) fn after(&mut self, gate: Gate, state: State) {
         match (self.run, gate) {
             (Run::Waiting, Gate::Open) => (self.run, self.answer.phase) = (Run::Driving, Phase::UnderWay),
-            (Run::Waiting, Gate::Closed) if state == State::Fault => {
+            (Run::Waiting, Gate::Closed) if matches!(state, State::Fault | State::Stopped) => {
                 self.end(Reason::Fault);
                 self.run = Run::Idle;
             }

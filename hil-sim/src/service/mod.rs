@@ -10,7 +10,7 @@ use firmware::can::address::Addresses;
 use firmware::service::{ServiceRequest, Task};
 use firmware::simulated::link::NAME;
 use firmware::simulated::{Pins, SimulatedBoard};
-use firmware::{Intent, Outputs};
+use firmware::{Intent, Outputs, SelfTest};
 use kinematics_core::Machine;
 
 use crate::plant::{Driven, Plant, SwingDrive};
@@ -60,7 +60,7 @@ impl Workshop {
         let swing = SwingDrive::of(&Machine::new(&scenario.machine.geometry)?);
         let controller =
             Controller::new(&scenario.parameters, Addresses::DEFAULT, &NAME).map_err(|error| refused(&error))?;
-        Ok(Self {
+        let mut workshop = Self {
             plant: Plant::new(scenario.plant, scenario.coil, positions),
             controller,
             board: SimulatedBoard::new().map_err(|error| refused(&error))?,
@@ -76,7 +76,15 @@ impl Workshop {
             bus: Bus::default(),
             wiring: Wiring::new(&scenario.parameters, swing, scenario.sensor_noise_m, seed),
             ticks: 0,
-        })
+        };
+        workshop.controller.self_tested(&SelfTest::PASSED);
+        Ok(workshop)
+    }
+
+    /// Another controller in place of the one there, its self-test passed.
+    pub fn install(&mut self, mut controller: Controller) {
+        controller.self_tested(&SelfTest::PASSED);
+        self.controller = controller;
     }
 
     /// One tick of all of it.
@@ -116,7 +124,7 @@ impl Workshop {
     /// Withdraws what was asked for, enable off, long enough that everybody has heard it.
     pub fn rest(&mut self) {
         (self.enable, self.request) = (false, Some(idle()));
-        self.ticks(500);
+        self.ticks(1500);
     }
 
     /// Asks for a task, and lets the answer come.

@@ -29,6 +29,7 @@ use kinematics_core::{
 use stm32f4::stm32f405::Peripherals;
 
 use crate::coils::coils;
+use crate::diagnosis::diagnosis;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
@@ -336,6 +337,7 @@ fn main() -> ! {
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     fence(&mut out, s, m, along);
     coils(&mut out, s);
+    diagnosis(&mut out, s);
     angles(&mut out, s);
     bits(&mut out);
     succeed()
