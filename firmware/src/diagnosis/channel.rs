@@ -39,6 +39,9 @@ pub(super) struct Channel {
     /// Changes, the older the less.
     changes: f32,
     speed_margin: f32,
+    /// The faster full speed, and one over it.
+    full: f32,
+    per_full: f32,
     envelope: Envelope,
     /// Speed lies in the envelope.
     inside: bool,
@@ -67,6 +70,8 @@ impl Channel {
             unit,
             changes: 0.0,
             speed_margin: limits.speed_margin,
+            full: faster,
+            per_full: 1.0 / faster,
             envelope: Envelope::default(),
             inside: true,
             against: false,
@@ -113,16 +118,23 @@ impl Channel {
         self.changes * PER_S
     }
 
-    /// First in a round: speed and the model.
+    /// How fast it may be moving, as a share of its full speed.
     #[inline(always)]
-    pub(super) fn measure(&mut self, model: &Model, command: f32, turned: bool) {
+    pub(super) fn activity(&self) -> f32 {
+        self.envelope.fastest() * self.per_full
+    }
+
+    /// First in a round: speed and the model. `others` is the largest activity of the other actuators, whose masses shake this one.
+    #[inline(always)]
+    pub(super) fn measure(&mut self, model: &Model, command: f32, others: f32, turned: bool) {
         let change = self.code.wrapping_sub(self.round_code).cast_signed();
         (self.round_before, self.round_code) = (self.round_code, self.code);
         self.changes = (self.changes + f32::from(change) * self.unit) * KEPT;
         let speed = self.speed();
         self.moving = speed > self.speed_margin || speed < -self.speed_margin;
         let (low, high) = self.envelope.follow(model, command, turned);
-        self.inside = speed <= high + self.speed_margin && speed >= low - self.speed_margin;
+        let margin = self.speed_margin + model.coupling * others * self.full;
+        self.inside = speed <= high + margin && speed >= low - margin;
         self.against = command * speed < 0.0;
     }
 

@@ -18,6 +18,8 @@ pub(super) struct Model {
     ring: f32,
     /// By how much less a speed bounces back than rings back.
     calmer: f32,
+    /// Share of its full speed that the others at theirs shake an actuator with.
+    pub(super) coupling: f32,
     /// Rounds of a span: three cover the longest dead time.
     pub(super) span_rounds: u8,
 }
@@ -32,6 +34,7 @@ impl Model {
             over: 1.0 + p.overshoot,
             ring: p.ring,
             calmer: p.ring - p.rebound,
+            coupling: p.coupling,
             // The cast saturates.
             span_rounds: (p.latest_start_s / (3.0 * ROUND_S) + 0.999) as u8,
         }
@@ -92,6 +95,13 @@ impl Envelope {
     /// The speed there must be, if nothing holds the actuator back.
     pub(super) fn sure(&self) -> f32 {
         self.sure
+    }
+
+    /// The fastest it may run on.
+    #[inline(always)]
+    pub(super) fn fastest(&self) -> f32 {
+        let (out, back) = (self.out.level, self.back.level);
+        if out > back { out } else { back }
     }
 
     /// One round under this command, `turned` at the end of every span: lowest and highest speed.

@@ -82,10 +82,11 @@ impl Diagnosis {
             channel.sample(*code);
         }
         let number = usize::from(self.tick / 2);
+        let others = if self.tick.is_multiple_of(2) { self.others(number) } else { 0.0 };
         let turned = self.until_turn == 0;
         if let (Some(channel), Some(command)) = (self.channels.get_mut(number), self.sent.get(number)) {
             if self.tick.is_multiple_of(2) {
-                channel.measure(&self.model, *command, turned);
+                channel.measure(&self.model, *command, others, turned);
             } else {
                 // The swing, number 0, has none.
                 channel.look(self.free, number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder)));
@@ -109,6 +110,19 @@ impl Diagnosis {
         self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.restart(*code));
         self.sent = [0.0; 4];
         jumped
+    }
+
+    /// The largest activity of all actuators but this one.
+    #[inline(always)]
+    fn others(&self, number: usize) -> f32 {
+        let mut largest = 0.0;
+        for (index, channel) in self.channels.iter().enumerate() {
+            let activity = channel.activity();
+            if index != number && activity > largest {
+                largest = activity;
+            }
+        }
+        largest
     }
 
     /// What went to the valves in this tick.

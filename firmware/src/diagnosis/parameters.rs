@@ -56,6 +56,8 @@ pub struct DiagnosisParameters {
     pub overshoot: f32,
     /// Share of a released speed that may ring back.
     pub ring: f32,
+    /// Share of its full speed at which an actuator may shake while the others move at theirs.
+    pub coupling: f32,
     /// Share of a standing command at which an actuator may bounce back off soil or a stop.
     pub rebound: f32,
     /// Below this pressure on the driven side there is no flow to move with, Pa.
@@ -73,7 +75,8 @@ impl DiagnosisParameters {
             spool_lag_s: 0.1,
             run_on_s: 2.0,
             overshoot: 0.75,
-            ring: 0.75,
+            ring: 1.0,
+            coupling: 0.4,
             rebound: 0.5,
             supplied_pa: 2e6,
             stalled_pa: 15e6,
@@ -104,6 +107,7 @@ impl DiagnosisParameters {
         within("diagnosis.run_on_s", self.run_on_s.into(), [0.1, 5.0])?;
         within("diagnosis.overshoot", self.overshoot.into(), [0.0, 2.0])?;
         within("diagnosis.ring", self.ring.into(), [0.0, 1.0])?;
+        within("diagnosis.coupling", self.coupling.into(), [0.0, 1.0])?;
         within("diagnosis.rebound", self.rebound.into(), [0.0, self.ring.into()])?;
         within("diagnosis.supplied_pa", self.supplied_pa.into(), [0.0, self.stalled_pa.into()])?;
         within("diagnosis.stalled_pa", self.stalled_pa.into(), [1e6, 60e6])

@@ -22,8 +22,8 @@ pub const PINS: [[&str; 3]; 11] = [
 ];
 
 /// Width of the picture.
-const WIDTH: i32 = 1080;
-const HEIGHT: i32 = 700;
+const WIDTH: i32 = 1180;
+const HEIGHT: i32 = 640;
 const LINE: i32 = 17;
 
 /// A block: its place, its heading, the lines below it.
@@ -115,11 +115,11 @@ fn write(out: &mut String) -> std::fmt::Result {
         Block::new(20, 220, 220, input, "ADS8688 converter 2", channels(1)),
         Block::new(20, 420, 220, input, "Operator's switches", owned(&["enable switch", "emergency-stop chain"])),
         Block::new(20, 520, 220, input, "CAN bus, 500 kbit/s", bus()),
-        Block::new(330, 20, 400, chip, "STM32F405RG", (0..PINS.len()).map(pins).collect()),
+        Block::new(330, 20, 480, chip, "STM32F405RG", (0..PINS.len()).map(pins).collect()),
         Block::new(
             330,
             280,
-            400,
+            480,
             chip,
             "firmware::Controller, 1 kHz",
             owned(&[
@@ -132,7 +132,7 @@ fn write(out: &mut String) -> std::fmt::Result {
         Block::new(
             330,
             420,
-            400,
+            480,
             chip,
             "Independent watchdog (IWDG)",
             owned(&["resets the ECU unless a whole sequence ran"]),
@@ -140,13 +140,13 @@ fn write(out: &mut String) -> std::fmt::Result {
         Block::new(
             330,
             520,
-            400,
+            480,
             chip,
             "Flash sectors 2 and 3",
             owned(&["parameters, two approved copies", "written only with the cut-off open"]),
         ),
         Block::new(
-            820,
+            920,
             20,
             240,
             power,
@@ -154,29 +154,29 @@ fn write(out: &mut String) -> std::fmt::Result {
             SPOOLS.map(|spool| format!("{spool}: extend, retract")).to_vec(),
         ),
         Block::new(
-            820,
-            220,
+            920,
+            270,
             240,
             power,
             "Master cut-off relay",
             owned(&["opens the solenoids' supply", "its own contact is read back"]),
         ),
-        Block::new(820, 420, 240, power, "Valve block", owned(&["four proportional spools"])),
+        Block::new(920, 170, 180, power, "Valve block", owned(&["four proportional spools"])),
     ];
     for block in &blocks {
         block.write(out)?;
     }
     arrow(out, (240, 60), (330, 60), "SPI")?;
-    arrow(out, (240, 260), (330, 190), "SPI")?;
-    arrow(out, (240, 450), (330, 230), "GPIO")?;
-    arrow(out, (240, 570), (330, 240), "CAN")?;
-    arrow(out, (530, 237), (530, 280), "")?;
-    arrow(out, (530, 378), (530, 420), "")?;
-    arrow(out, (730, 70), (820, 70), "PWM 20 kHz")?;
-    arrow(out, (730, 190), (820, 240), "GPIO")?;
-    arrow(out, (820, 270), (730, 220), "read-back")?;
-    arrow(out, (1000, 118), (1000, 420), "")?;
-    arrow(out, (880, 220), (880, 118), "supply")?;
+    arrow(out, (240, 260), (330, 130), "SPI")?;
+    arrow(out, (240, 450), (330, 190), "GPIO")?;
+    arrow(out, (240, 570), (330, 225), "CAN")?;
+    arrow(out, (570, 237), (570, 280), "")?;
+    arrow(out, (570, 378), (570, 420), "")?;
+    arrow(out, (810, 70), (920, 70), "PWM 20 kHz")?;
+    arrow(out, (810, 200), (920, 290), "GPIO")?;
+    arrow(out, (920, 320), (810, 230), "read-back")?;
+    arrow(out, (1000, 118), (1000, 170), "")?;
+    arrow(out, (1130, 270), (1130, 118), "supply")?;
     out.push_str("</svg>\n");
     Ok(())
 }
