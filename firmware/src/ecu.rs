@@ -1,4 +1,7 @@
-//! The whole application: one tick from inputs to outputs.
+//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `mount` the change of the bucket.
+
+mod mount;
+mod serve;
 
 use core::borrow::BorrowMut;
 
@@ -15,10 +18,13 @@ use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
+use crate::service::Service;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
-use crate::valve::coil_stage::CoilStage;
+use crate::valve::coil_stage::{CoilStage, CoilsDriven};
+
+use mount::Buckets;
 
 /// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
 /// in an image, by reference.
@@ -37,6 +43,8 @@ pub struct Ecu<F = Followers> {
     freeze_frame: Option<FreezeFrame>,
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
+    service: Service,
+    buckets: Option<Buckets>,
 }
 
 impl Ecu {
@@ -79,6 +87,8 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             freeze_frame: None,
             lengths: NO_LENGTHS,
             pose: NO_POSE,
+            service: Service::new(p),
+            buckets: None,
         })
     }
 
@@ -94,6 +104,11 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
 
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
+        if self.service.attends(inputs)
+            && let Some(outputs) = self.serve(inputs)
+        {
+            return outputs;
+        }
         let supply_v = self.sensing.supply_v(inputs);
         let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
         self.diagnosis.judge(&inputs.codes, &inputs.pressures_pa);
@@ -119,13 +134,25 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
+        self.outputs((gate, inputs.overrun), watched.stage_fault, &wanted, &fenced, &driven)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        &mut self,
+        (gate, late): (Gate, bool),
+        stage_fault: Option<Fault>,
+        wanted: &Wanted,
+        fenced: &Fenced,
+        driven: &CoilsDriven,
+    ) -> Outputs {
         let outputs = Outputs {
             tick: self.tick,
             state: self.supervisor.state(),
             fault: self.supervisor.fault(),
-            late: inputs.overrun,
+            late,
             cut_off_closed: gate == Gate::Open,
-            pose_valid: !watched.stage_fault.is_some_and(Fault::hides_pose),
+            pose_valid: !stage_fault.is_some_and(Fault::hides_pose),
             lengths: self.lengths,
             pose: self.pose,
             dig_tick: wanted.dig_tick,

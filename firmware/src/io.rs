@@ -5,6 +5,7 @@ use kinematics_core::{Cylinders, Pose, Rotor};
 use crate::can::command::Slope;
 use crate::command::Intent;
 use crate::fault::{Fault, State};
+use crate::service::ServiceRequest;
 
 /// The four spools and their position sensors, in the order of every array here.
 pub const SPOOLS: [&str; 4] = ["swing", "boom", "arm", "bucket"];
@@ -79,6 +80,8 @@ pub struct Inputs {
     pub slope: Option<Slope>,
     /// Pressures above ambient of boom, arm and bucket cylinder, \[head, rod\], Pa; each `None` while unknown.
     pub pressures_pa: [[Option<f32>; 2]; 3],
+    /// What the service tool asks for; `None` without a fresh command.
+    pub service: Option<ServiceRequest>,
     /// The master cut-off's own contact is closed.
     pub cut_off_closed: bool,
     /// The enable switch.

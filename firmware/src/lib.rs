@@ -34,6 +34,7 @@ pub mod parameters;
 pub mod path;
 pub mod pose;
 pub mod sensing;
+pub mod service;
 #[cfg(feature = "simulated")]
 pub mod simulated;
 pub mod store;

@@ -17,6 +17,7 @@ use crate::grade::GradeParameters;
 use crate::law::LawParameters;
 use crate::moves::{MoveError, MoveParameters, Pitch};
 use crate::path::{PathParameters, PathViolation};
+use crate::service::JogParameters;
 use crate::travel::Violation;
 use crate::valve::coil_stage::CoilStageParameters;
 
@@ -116,6 +117,8 @@ pub struct Parameters {
     /// Motion.
     #[serde(deserialize_with = "apart")]
     pub motion: MotionParameters,
+    /// The service jog.
+    pub jog: JogParameters,
     /// The dig, where there is one.
     #[serde(deserialize_with = "apart")]
     pub dig: Option<DigParameters>,
@@ -267,6 +270,7 @@ impl Parameters {
         self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
         self.diagnosis.validate()?;
         self.motion.validate()?;
+        self.jog.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
         self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;

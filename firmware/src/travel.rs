@@ -15,7 +15,18 @@ pub struct Violation<T> {
 
 /// The first violation, tried at every tick of the dig.
 pub fn first_violation<T: Real>(machine: &Machine<T>, dig: &Dig<T>) -> Option<Violation<T>> {
-    (0..=dig.ticks()).find_map(|tick| {
+    violation_among(machine, dig, 0, dig.ticks().saturating_add(1))
+}
+
+/// The first violation in `count` ticks of the dig from `from` on.
+pub(crate) fn violation_among<T: Real>(
+    machine: &Machine<T>,
+    dig: &Dig<T>,
+    from: u32,
+    count: u32,
+) -> Option<Violation<T>> {
+    let end = core::cmp::min(from.saturating_add(count), dig.ticks().saturating_add(1));
+    (from..end).find_map(|tick| {
         let refused = machine.tip_to_cylinders(&dig.at_tick(tick)).err();
         refused.map(|error| Violation { time_s: Dig::time_of(tick), error })
     })

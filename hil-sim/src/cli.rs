@@ -1,6 +1,7 @@
 //! The `hil` command: one module a subcommand.
 
 pub mod bench;
+pub mod calibrate;
 pub mod coil;
 pub mod effort;
 pub mod faults;
@@ -56,6 +57,8 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
     Coil(coil::CoilArgs),
+    /// Search every valve of a machine by command, through the controller's pins: found against true
+    Calibrate(calibrate::CalibrateArgs),
     /// Show the hydraulic plant of a machine: strokes at full lever with pressures and flow, and how fast it is
     Plant(plant::PlantArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
@@ -103,6 +106,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Score(args) }) => score::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
+        Ok(Hil { command: Command::Calibrate(args) }) => calibrate::main(&args),
         Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),

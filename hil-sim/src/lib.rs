@@ -43,6 +43,7 @@ pub mod run;
 pub mod scenario;
 pub mod scenes;
 pub mod score;
+pub mod service;
 pub mod supervisor_page;
 mod toml_text;
 pub mod travel;

@@ -121,6 +121,18 @@ fn scenario(source: &str) -> Result<(PathBuf, Scenario), RecordFileError> {
     }
 }
 
+/// A scenario of this source, for a command that needs only the machine's valves and coils: a file, or the first of a machine.
+///
+/// # Errors
+/// Neither, or a machine without a scenario.
+pub fn any_scenario(source: &str) -> Result<Scenario, RecordFileError> {
+    let machine = MachineFile::load(source).ok();
+    match machine.and_then(|machine| scenarios_of(&machine).into_iter().next()) {
+        Some((_, scenario)) => Ok(scenario),
+        None => scenario(source).map(|(_, scenario)| scenario),
+    }
+}
+
 /// Scenarios without events of this very machine, in `scenarios/` here or else in the workspace, by name.
 fn scenarios_of(machine: &MachineFile) -> Vec<(PathBuf, Scenario)> {
     let folders = [PathBuf::from("scenarios"), Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios")];

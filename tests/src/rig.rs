@@ -96,6 +96,7 @@ impl Rig {
                 command: None,
                 slope: None,
                 pressures_pa: [[None; 2]; 3],
+                service: None,
                 enable: false,
                 converters_sound: [true; 2],
                 cut_off_closed: false,

@@ -54,6 +54,15 @@ fn the_page_and_the_dbc_file_are_up_to_date() {
 }
 
 #[test]
+fn the_pins_of_the_block_diagram_are_those_of_the_porting_page() {
+    let page = std::fs::read_to_string(workspace().join("docs/porting.md")).unwrap();
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| P")).collect();
+    let drawn =
+        hil_sim::icd::PINS.map(|[pins, function, peripheral]| format!("| {pins} | {function} | {peripheral} |"));
+    assert_eq!(rows, drawn);
+}
+
+#[test]
 fn golden_frames_are_made_and_read_by_the_tables() {
     for (golden, entry) in golden().iter().zip(&MESSAGES) {
         let id = Identifier::of(golden.frame.extended_id());

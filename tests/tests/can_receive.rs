@@ -103,7 +103,7 @@ fn short_frames_run_out_and_say_so() {
 #[test]
 fn a_sender_that_has_no_value_is_believed_at_once() {
     let [signal, ..] = MODE.signals;
-    for code in [7, 13, signal.error(), signal.not_available()] {
+    for code in [9, 13, signal.error(), signal.not_available()] {
         let mut bench = digging();
         bench.tick(&[from(&MODE, 4, MODE.pack([code, 0, 0]))]);
         assert_eq!((bench.inbox().mode().value, bench.inbox().mode().validity), (None, Validity::OutOfRange), "{code}");
@@ -124,10 +124,10 @@ fn no_message_speaks_for_another() {
         bench.tick(&[mode(counter, Mode::Levers), boom, arm]);
         bench.ticks(19);
     }
-    let [swing, boom, arm, bucket, tip, mode, slope, pressures @ ..] = all(&bench);
+    let [swing, boom, arm, bucket, tip, mode, slope, others @ ..] = all(&bench);
     assert_eq!((boom, arm, mode), (Validity::BadChecksum, Validity::OutOfRange, Validity::Fresh));
     assert_eq!([swing, bucket, tip, slope], [Validity::Stale; 4]);
-    assert_eq!(pressures, [Validity::Stale; 3]);
+    assert_eq!(others, [Validity::Stale; 4]);
 }
 
 #[test]

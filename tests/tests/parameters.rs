@@ -12,7 +12,8 @@ fn dig(p: &mut Parameters) -> &mut DigParameters {
     p.dig.as_mut().expect("a dig")
 }
 
-const SPOILT: [(&str, Spoil); 38] = [
+const SPOILT: [(&str, Spoil); 39] = [
+    ("jog.max_current_a", |p| p.jog.max_current_a = Some(9.0)),
     ("links.boom_m", |p| p.geometry.boom_m = -1.0),
     ("boom.base_x_m", |p| p.geometry.boom.base.x = f64::NAN),
     ("sensor.min_code", |p| p.cylinder_sensors[0].min_code = 60_000),

@@ -289,6 +289,7 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
                 command: sending.then_some(Intent { request, levers, ..Intent::NEUTRAL }),
                 slope: None,
                 pressures_pa: [[None; 2]; 3],
+                service: None,
                 converters_sound,
                 cut_off_closed,
                 enable,

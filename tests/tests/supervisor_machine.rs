@@ -120,6 +120,7 @@ const HEALTHY: Inputs = Inputs {
     command: Some(Intent::NEUTRAL),
     slope: None,
     pressures_pa: [[None; 2]; 3],
+    service: None,
     converters_sound: [true; 2],
     cut_off_closed: false,
     enable: false,

@@ -12,6 +12,7 @@ use crate::can::{CanFrame, Node};
 use crate::command::Intent;
 use crate::io::{Inputs, Outputs};
 use crate::motion::Followers;
+use crate::store::StoredRecord;
 use crate::{Ecu, Fault, ParameterError, Parameters, SelfTest};
 
 /// CAN frames taken in a tick: 500 kbit/s carry no more than four in a millisecond.
@@ -71,6 +72,17 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         })
     }
 
+    /// Gives the record whose buckets can be mounted by command, and which of them is mounted: the one whose parameters the controller
+    /// was built from.
+    pub fn set_buckets(&mut self, record: &'static StoredRecord, mounted: u8) {
+        self.ecu.set_buckets(record, mounted);
+    }
+
+    /// The application.
+    pub fn ecu(&mut self) -> &mut Ecu<F> {
+        &mut self.ecu
+    }
+
     /// As [`Ecu::self_tested`].
     pub fn self_tested(&mut self, report: &SelfTest) {
         self.ecu.self_tested(report);
@@ -110,6 +122,7 @@ impl<F: BorrowMut<Followers>> Controller<F> {
             command: Intent::of(inbox),
             slope: inbox.slope().value,
             pressures_pa: inbox.pressures_pa().map(|sides| sides.map(|side| side.value)),
+            service: inbox.service().value,
             cut_off_closed: board.cut_off_is_closed().unwrap_or(true),
             enable: switches.enable,
             emergency_stop: switches.emergency_stop,
@@ -130,6 +143,7 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         let driven = drive(board, outputs);
         let latched = ActiveFaults::from(outputs.fault);
         let active = if outputs.late { latched.with(Fault::LateTick) } else { latched };
+        self.node.set_answer(*self.ecu.answer());
         for frame in self.node.due(outputs, active).iter().flatten() {
             if let Some(frame) = embedded_can::Frame::new(frame.extended_id(), embedded_can::Frame::data(frame)) {
                 // A full mailbox loses telemetry, nothing else.

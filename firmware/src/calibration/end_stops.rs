@@ -107,6 +107,14 @@ impl EndStops {
         }
     }
 
+    /// How far it is, 0…1: an end is a half.
+    pub const fn progress(&self) -> f32 {
+        match self.direction {
+            Direction::Retract => 0.0,
+            Direction::Extend => 0.5,
+        }
+    }
+
     fn codes(&self, extended: f32) -> Step<EndCodes, EndStopFailure> {
         let span = extended - self.retracted;
         let least = f32::from(self.p.least_span_codes);

@@ -169,6 +169,19 @@ impl ValveSearch {
         }
     }
 
+    /// How far it is, 0…1: the searches count two fifths each, the measurements the rest.
+    pub fn progress(&self) -> f32 {
+        let of_search = |current: f32| 0.4 * current / self.p.largest;
+        let phase = if self.phase == Phase::Rest { self.next } else { self.phase };
+        match (phase, self.direction) {
+            (Phase::Rest, _) => 0.0,
+            (Phase::Search { current }, Direction::Extend) => of_search(current),
+            (Phase::Search { current }, Direction::Retract) => 0.4 + of_search(current),
+            (Phase::Measure { point }, Direction::Extend) => 0.8 + 0.1 * point as f32,
+            (Phase::Measure { point }, Direction::Retract) => 0.85 + 0.1 * point as f32,
+        }
+    }
+
     fn found(&mut self) -> &mut Found {
         match self.direction {
             Direction::Extend => &mut self.extend,

@@ -18,6 +18,8 @@ pub struct Addresses {
     pub slope_sensor: u8,
     /// The pressure sensors' gateway.
     pub pressure_sensors: u8,
+    /// The engineer's service tool.
+    pub service_tool: u8,
 }
 
 /// The NAME's fields that a maker sets; the rest says: construction equipment, function not listed, address fixed.
@@ -67,7 +69,9 @@ impl core::error::Error for AddressError {}
 
 impl Addresses {
     /// What `docs/icd.md` and `docs/excavator.dbc` are written for.
-    pub const DEFAULT: Self = Self { own: 0x80, operator: 0x81, slope_sensor: 0x82, pressure_sensors: 0x83 };
+    pub const DEFAULT: Self =
+        // J1939's preferred address of an off-board service tool.
+        Self { own: 0x80, operator: 0x81, slope_sensor: 0x82, pressure_sensors: 0x83, service_tool: 0xf9 };
 
     /// Where a sender is expected; `None` for those without an address of their own.
     pub fn of(&self, sender: Sender) -> Option<u8> {
@@ -76,6 +80,7 @@ impl Addresses {
             Sender::Operator => Some(self.operator),
             Sender::SlopeSensor => Some(self.slope_sensor),
             Sender::PressureSensors => Some(self.pressure_sensors),
+            Sender::ServiceTool => Some(self.service_tool),
             Sender::Any => None,
         }
     }
@@ -90,6 +95,7 @@ impl Addresses {
             ("operator", self.operator),
             ("slope_sensor", self.slope_sensor),
             ("pressure_sensors", self.pressure_sensors),
+            ("service_tool", self.service_tool),
         ];
         for (index, (field, address)) in named.into_iter().enumerate() {
             if address >= NULL {

@@ -9,6 +9,7 @@ use super::id::Identifier;
 use super::message::Header;
 use super::receive::{Reading, Received, Validity};
 use super::table::received as table;
+use crate::service::ServiceRequest;
 
 /// The swing, boom, arm and bucket commands.
 static VALVES: [&Header; 4] = [
@@ -31,6 +32,7 @@ pub struct Inbox {
     mode: Received<Mode>,
     slope: Received<Slope>,
     pressures: [Received<Pressures>; 3],
+    service: Received<ServiceRequest>,
 }
 
 impl Inbox {
@@ -43,6 +45,7 @@ impl Inbox {
             mode: Received::new(table::TIMEOUT_MS),
             slope: Received::new(table::TIMEOUT_MS),
             pressures: [Received::new(table::TIMEOUT_MS); 3],
+            service: Received::new(table::TIMEOUT_MS),
         }
     }
 
@@ -64,6 +67,9 @@ impl Inbox {
         if is(&table::SLOPE.header) {
             self.slope.take(&table::SLOPE.header, id, frame, Slope::of);
         }
+        if is(&table::SERVICE.header) {
+            self.service.take(&table::SERVICE.header, id, frame, ServiceRequest::of);
+        }
         for (pressures, header) in self.pressures.iter_mut().zip(PRESSURES) {
             if is(header) {
                 pressures.take(header, id, frame, |payload| Ok::<_, Infallible>(Pressures::of(payload)));
@@ -78,6 +84,7 @@ impl Inbox {
         self.mode.aged();
         self.slope.aged();
         self.pressures.iter_mut().for_each(Received::aged);
+        self.service.aged();
     }
 
     /// The commands of swing, boom, arm and bucket.
@@ -100,6 +107,11 @@ impl Inbox {
         self.slope.reading()
     }
 
+    /// The service command.
+    pub fn service(&self) -> Reading<ServiceRequest> {
+        self.service.reading()
+    }
+
     /// The pressures of boom, arm and bucket, \[head, rod\], Pa: each with its own validity.
     pub fn pressures_pa(&self) -> [[Reading<f32>; 2]; 3] {
         self.pressures.each_ref().map(|cylinder| {
@@ -113,10 +125,10 @@ impl Inbox {
     }
 
     /// Every message's validity, in the order of [`super::table::sent::RECEPTION`].
-    pub fn validities(&self) -> [Validity; 10] {
+    pub fn validities(&self) -> [Validity; 11] {
         let [swing, boom, arm, bucket] = self.valves.each_ref().map(Received::validity);
         let [boom_p, arm_p, bucket_p] = self.pressures.each_ref().map(Received::validity);
         let (tip, mode, slope) = (self.tip_velocity.validity(), self.mode.validity(), self.slope.validity());
-        [swing, boom, arm, bucket, tip, mode, slope, boom_p, arm_p, bucket_p]
+        [swing, boom, arm, bucket, tip, mode, slope, boom_p, arm_p, bucket_p, self.service.validity()]
     }
 }

@@ -16,6 +16,8 @@ pub enum Sender {
     SlopeSensor,
     /// The pressure sensors' gateway.
     PressureSensors,
+    /// The engineer's service tool.
+    ServiceTool,
     /// Any node.
     Any,
 }
@@ -28,6 +30,7 @@ impl Sender {
             Self::Operator => "Operator",
             Self::SlopeSensor => "SlopeSensor",
             Self::PressureSensors => "PressureSensors",
+            Self::ServiceTool => "ServiceTool",
             Self::Any => "Vector__XXX",
         }
     }

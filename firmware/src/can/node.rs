@@ -7,6 +7,7 @@ use super::id::Identifier;
 use super::inbox::Inbox;
 use super::telemetry::{Due, Telemetry, add};
 use crate::io::Outputs;
+use crate::service::Answer;
 
 /// Each tick: [`Node::aged`], [`Node::receive`] for each frame that came, then the application, then [`Node::due`].
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +56,11 @@ impl Node {
     /// The address is ours; before that, and after it was lost, only the claim is sent.
     pub fn has_address(&self) -> bool {
         self.claim.is_ours()
+    }
+
+    /// What the service stage has to say from now on.
+    pub fn set_answer(&mut self, answer: Answer) {
+        self.telemetry.set_answer(answer);
     }
 
     /// The frames to send this tick.

@@ -3,11 +3,12 @@
 pub mod network;
 pub mod received;
 pub mod sent;
+pub mod service;
 
 use super::message::Entry;
 
 /// All messages: received, sent, and those of the network itself.
-pub static MESSAGES: [Entry; 23] = [
+pub static MESSAGES: [Entry; 27] = [
     received::SWING_COMMAND.entry(),
     received::BOOM_COMMAND.entry(),
     received::ARM_COMMAND.entry(),
@@ -18,6 +19,7 @@ pub static MESSAGES: [Entry; 23] = [
     received::BOOM_PRESSURES.entry(),
     received::ARM_PRESSURES.entry(),
     received::BUCKET_PRESSURES.entry(),
+    received::SERVICE.entry(),
     sent::STATE.entry(),
     sent::LENGTHS.entry(),
     sent::TIP.entry(),
@@ -26,6 +28,9 @@ pub static MESSAGES: [Entry; 23] = [
     sent::SWING_AND_BOOM_CURRENTS.entry(),
     sent::ARM_AND_BUCKET_CURRENTS.entry(),
     sent::RECEPTION.entry(),
+    service::ANSWER.entry(),
+    service::FOUND_VALVE.entry(),
+    service::FOUND_ENDS.entry(),
     network::DM1.entry(),
     network::TRANSPORT_CONTROL.entry(),
     network::TRANSPORT_DATA.entry(),

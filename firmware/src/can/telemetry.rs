@@ -4,8 +4,9 @@ use super::frame::CanFrame;
 use super::message::{Entry, Message, Rate, Sender};
 use super::receive::Validity;
 use super::table::MESSAGES;
-use super::table::sent;
+use super::table::{sent, service};
 use crate::io::Outputs;
+use crate::service::Answer;
 
 /// The frames of one tick: as many as a bxCAN has mailboxes.
 pub type Due = [Option<CanFrame>; 3];
@@ -47,15 +48,23 @@ const fn fullest_ms() -> u32 {
 pub struct Telemetry {
     now_ms: u32,
     counter: u8,
+    /// What the service stage has to say.
+    answer: Answer,
+    answer_counter: u8,
 }
 
 impl Telemetry {
     pub(crate) const fn new() -> Self {
-        Self { now_ms: 0, counter: 0 }
+        Self { now_ms: 0, counter: 0, answer: Answer::NONE, answer_counter: 0 }
+    }
+
+    /// What the service stage has to say from now on.
+    pub(crate) fn set_answer(&mut self, answer: Answer) {
+        self.answer = answer;
     }
 
     /// Adds the frames of this tick.
-    pub(crate) fn due(&mut self, source: u8, outputs: &Outputs, validities: [Validity; 10], due: &mut Due) {
+    pub(crate) fn due(&mut self, source: u8, outputs: &Outputs, validities: [Validity; 11], due: &mut Due) {
         let now = self.now_ms;
         self.now_ms = if now + 1 < TIMETABLE_MS { now + 1 } else { 0 };
         if sent::STATE.header.is_due(now) {
@@ -81,6 +90,15 @@ impl Telemetry {
         send(&sent::SWING_AND_BOOM_CURRENTS, now, source, due, |m| m.encode([s0, s1, b0, b1]));
         send(&sent::ARM_AND_BUCKET_CURRENTS, now, source, due, |m| m.encode([a0, a1, k0, k1]));
         send(&sent::RECEPTION, now, source, due, |m| m.pack(validities.map(Validity::code)));
+        if service::ANSWER.header.is_due(now) {
+            add(due, service::ANSWER.frame(source, self.answer_counter, service::ANSWER.pack(self.answer.codes())));
+            self.answer_counter = (self.answer_counter + 1) & 0xf;
+        }
+        let found = self.answer.found;
+        send(&service::FOUND_VALVE, now, source, due, |m| {
+            found.and_then(|found| found.valve()).map_or(u64::MAX, |values| m.encode(values))
+        });
+        send(&service::FOUND_ENDS, now, source, due, |_| found.map_or(u64::MAX, |found| found.ends_or_tip()));
     }
 }
 

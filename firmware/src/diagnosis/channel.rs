@@ -93,6 +93,14 @@ impl Channel {
         (self.code, self.round_code, self.round_before) = (code, code, code);
     }
 
+    /// Standing at this code, nothing known.
+    pub(super) fn restart(&mut self, code: u16) {
+        self.begin(code);
+        (self.jumped, self.wrong, self.changes, self.outside) = (0, None, 0.0, 0);
+        (self.inside, self.against, self.moving) = (true, false, false);
+        (self.envelope, self.stuck) = (Envelope::default(), Stuck::default());
+    }
+
     /// Every tick.
     #[inline(always)]
     pub(super) fn sample(&mut self, code: u16) {

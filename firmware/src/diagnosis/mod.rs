@@ -103,6 +103,19 @@ impl Diagnosis {
         }
     }
 
+    /// One tick in service, in which actuators move without speeds being asked for: only a code that jumps is a fault, and the watch
+    /// over motion begins afresh when service ends.
+    pub fn in_service(&mut self, codes: &[u16; 4]) -> Option<Fault> {
+        let begun = core::mem::replace(&mut self.begun, true);
+        for (channel, code) in self.channels.iter_mut().zip(codes).filter(|_| begun) {
+            channel.sample(*code);
+        }
+        let jumped = self.fault();
+        self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.restart(*code));
+        self.sent = [0.0; 4];
+        jumped
+    }
+
     /// The largest activity of all actuators but this one.
     #[inline(always)]
     fn others(&self, number: usize) -> f32 {

@@ -146,6 +146,18 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         })
     }
 
+    /// Precomputes everything anew, for another geometry; the dig has been tried before.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+        let followers = self.followers.borrow_mut();
+        followers.plan(p, machine)?;
+        let dig = p.dig.as_ref().map(Dig::new);
+        self.dig = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut followers.seen));
+        Ok(())
+    }
+
     /// Back to standing still: whatever is asked for next starts over.
     pub(crate) fn reset(&mut self) {
         self.start_over();

@@ -22,7 +22,7 @@ pub const DATA_BYTES: usize = 2048;
 /// A whole copy, bytes.
 pub const COPY_BYTES: usize = HEADER_BYTES + DATA_BYTES;
 /// Version of the record's format; another one is not read.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 const MAGIC: [u8; 4] = *b"XCPR";
 const ERASED: u32 = u32::MAX;

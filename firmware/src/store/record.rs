@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use kinematics_core::Vec2;
+use kinematics_core::{PinGeometry, Vec2};
 use serde::{Deserialize, Serialize};
 
 use crate::apart::apart;
@@ -111,13 +111,20 @@ impl StoredRecord {
     /// # Errors
     /// [`RecordError::NoBucket`], [`RecordError::Parameter`].
     pub fn parameters_for(&self, bucket: usize) -> Result<Parameters, RecordError> {
-        let mounted = self.buckets.get(bucket).copied().flatten().ok_or(RecordError::NoBucket { bucket })?;
         let mut parameters = self.parameters;
-        parameters.geometry.bucket_m = mounted.bucket_m;
-        parameters.geometry.bucket.coupler_pin = mounted.coupler_pin;
-        parameters.geometry.bucket.coupler_m = mounted.coupler_m;
+        parameters.geometry = self.geometry_for(bucket).ok_or(RecordError::NoBucket { bucket })?;
         parameters.validate().map_err(|error| RecordError::Parameter { bucket, error })?;
         Ok(parameters)
+    }
+
+    /// The geometry with this bucket mounted; `None` where there is none of this index.
+    pub fn geometry_for(&self, bucket: usize) -> Option<PinGeometry> {
+        let mounted = self.buckets.get(bucket).copied().flatten()?;
+        let mut geometry = self.parameters.geometry;
+        geometry.bucket_m = mounted.bucket_m;
+        geometry.bucket.coupler_pin = mounted.coupler_pin;
+        geometry.bucket.coupler_m = mounted.coupler_m;
+        Some(geometry)
     }
 
     /// Checks the names, that no bucket stands behind an empty place, and the parameters with every bucket.

@@ -152,4 +152,28 @@ impl CoilStage {
         }
         driven
     }
+
+    /// One tick in which one spool gets a signed current, A, extending positive, instead of a speed; the others get none. Everything
+    /// else as [`Self::drive`]. Not for every tick: nothing sleeps here.
+    #[inline(never)]
+    pub fn drive_at_current(
+        &mut self,
+        gate: Gate,
+        (spool, current_a): (usize, f32),
+        supply_v: f32,
+        codes: &[Solenoids<u16>; 4],
+    ) -> CoilsDriven {
+        let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
+        let now = Now { gate, supply: self.shared.gains.supply(supply_v), begun: Cell::new(false) };
+        let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
+        for (index, ((each, codes), outputs)) in self.spools.iter_mut().zip(codes).zip(outputs).enumerate() {
+            let current_a = if index == spool { current_a } else { 0.0 };
+            if let Some((side, fault)) = each.tick_at_current(&self.shared, &now, current_a, *codes, outputs)
+                && driven.fault.is_none_or(|so_far| fault < so_far.fault)
+            {
+                driven.fault = Some(FaultyCoil { spool: index, side, fault });
+            }
+        }
+        driven
+    }
 }

@@ -1,5 +1,7 @@
 //! One spool: two directions, their interlock, and their watches.
 
+mod at_current;
+
 use core::cell::Cell;
 
 use super::coil_fault::CoilFault;

@@ -10,7 +10,8 @@ use firmware::can::table::MESSAGES;
 
 use super::numbers::number;
 
-const NODES: [Sender; 4] = [Sender::Controller, Sender::Operator, Sender::SlopeSensor, Sender::PressureSensors];
+const NODES: [Sender; 5] =
+    [Sender::Controller, Sender::Operator, Sender::SlopeSensor, Sender::PressureSensors, Sender::ServiceTool];
 
 /// Marks a 29-bit identifier.
 const EXTENDED: u32 = 1 << 31;

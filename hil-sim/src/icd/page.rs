@@ -182,7 +182,9 @@ fn addresses(out: &mut String) -> std::fmt::Result {
          the same one it loses it, says so from address 254 and is silent from then on. The NAME's manufacturer code comes from SAE \
          and must be the maker's own.\n\n| node | address (hex) |\n|---|---|\n",
     );
-    for node in [Sender::Controller, Sender::Operator, Sender::SlopeSensor, Sender::PressureSensors] {
+    for node in
+        [Sender::Controller, Sender::Operator, Sender::SlopeSensor, Sender::PressureSensors, Sender::ServiceTool]
+    {
         let address = Addresses::DEFAULT.of(node).unwrap_or(NULL);
         writeln!(out, "| {} | {address:02X} |", node.name())?;
     }

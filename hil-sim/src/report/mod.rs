@@ -1,6 +1,7 @@
 //! What a run looks like: the short table, and the report folder.
 //!
 //! - [`table()`] — the short table after a run;
+//! - [`write_calibration`] — the folder of a calibration by command: `calibration.html`, `calibration.json`;
 //! - [`write_coil`] — the folder of the coil current loop: `coil.html`, `coil.json`;
 //! - [`write_plant`] — the folder of a hydraulic plant: `plant.html`, `plant.json`, an SVG a stroke;
 //! - [`write`](fn@write) — the folder of a run: `report.html`, `linkage.svg`, `log.csv`, `summary.json`;
@@ -9,6 +10,7 @@
 //! Inside, a `figures` module says what each figure shows and one file of it draws them all; `series` makes long series
 //! short; `html` is the page and escapes every text; `run` and `dig` put it together.
 
+mod calibration;
 mod coil;
 mod csv;
 mod dig;
@@ -24,6 +26,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use calibration::write_calibration;
 pub use coil::write_coil;
 pub use dig::draw_only;
 pub use machine::write_machine;

@@ -5,11 +5,15 @@ use firmware::can::address::Addresses;
 use firmware::can::command::{Mode, TipVelocity};
 use firmware::can::message::{Message, Sender};
 use firmware::can::table::received::{
-    ARM_COMMAND, ARM_PRESSURES, BOOM_COMMAND, BOOM_PRESSURES, BUCKET_COMMAND, BUCKET_PRESSURES, MODE, PERIOD_MS, SLOPE,
-    SWING_COMMAND, TIP_VELOCITY,
+    ARM_COMMAND, ARM_PRESSURES, BOOM_COMMAND, BOOM_PRESSURES, BUCKET_COMMAND, BUCKET_PRESSURES, MODE, PERIOD_MS,
+    SERVICE, SLOPE, SWING_COMMAND, TIP_VELOCITY,
 };
+use firmware::service::ServiceRequest;
 use firmware::simulated::FRAMES_IN;
 use firmware::{Intent, Request};
+
+/// The service tool speaks in this millisecond of the period.
+const SERVICE_PHASE: u16 = 12;
 
 /// Frames of one tick.
 pub(crate) type Frames = [Option<CanFrame>; FRAMES_IN];
@@ -54,6 +58,20 @@ impl Bus {
             _ => None,
         });
         frames
+    }
+
+    /// The service tool's frame, in the millisecond it has.
+    pub(crate) fn service(&self, request: &ServiceRequest) -> Option<CanFrame> {
+        // The phase of this tick's frames was the one before.
+        if self.tick != SERVICE_PHASE + 1 {
+            return None;
+        }
+        let values =
+            [request.task.code() as f32, f32::from(request.spool), 0.0, request.current_a.clamp(-3.0, 3.0), 0.0, 0.0];
+        let [_, _, number, ..] = &SERVICE.signals;
+        let payload = number.put(SERVICE.encode(values), request.number.into());
+        let source = Addresses::DEFAULT.of(SERVICE.header.sender).unwrap_or_default();
+        Some(SERVICE.frame(source, self.counter, payload))
     }
 
     fn panel(&self, phase: u16, intent: &Intent) -> Option<CanFrame> {

@@ -1,12 +1,12 @@
 //! Running a scenario: plant, operator and controller, tick by tick.
 
-mod bus;
+pub(crate) mod bus;
 mod injector;
 mod log;
 mod operator;
 mod reach;
 mod summary;
-mod wiring;
+pub(crate) mod wiring;
 
 use std::time::Instant;
 

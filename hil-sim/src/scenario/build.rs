@@ -7,6 +7,7 @@ use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{
     Coil, MotionParameters, PositionSensor, ReachParameters, Supply, SwingSensor, ValveDirection,
 };
+use firmware::service::JogParameters;
 use firmware::valve::coil_stage::CoilStageParameters;
 use kinematics_core::geometry::Stroke;
 use kinematics_core::planning::effort::Piston;
@@ -218,6 +219,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             following_error_m: m.following_error_m as f32,
             law: file.law.map(|law| law.parameters()),
         },
+        jog: JogParameters { max_current_a: file.jog.map(|jog| jog.max_current_a as f32) },
         dig: file.dig.as_ref().map(dig),
         fence: file
             .fence

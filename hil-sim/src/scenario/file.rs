@@ -41,6 +41,7 @@ pub(super) struct ScenarioFile {
     #[serde(default)]
     pub(super) tip: Vec<TipMove>,
     pub(super) motion: Motion,
+    pub(super) jog: Option<Jog>,
     pub(super) law: Option<LawTable>,
     pub(super) plant: Plant,
     pub(super) fence: Option<FenceTable>,
@@ -156,6 +157,13 @@ pub(super) struct Motion {
     pub(super) smallest_speed_mps: f64,
     pub(super) start_tolerance_m: f64,
     pub(super) following_error_m: f64,
+}
+
+/// The service jog; left out, each direction's limit follows from its dead band.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Jog {
+    pub(super) max_current_a: f64,
 }
 
 pub(super) fn parse(text: &str) -> Result<ScenarioFile, String> {

@@ -23,7 +23,9 @@ use kinematics_core::planning::time_scaling::{Pace, Progress, TimeScaling};
 use kinematics_core::planning::tip_path::TipPath;
 use kinematics_core::rates::{CylinderRates, MomentArms};
 use kinematics_core::redundancy::{Rates, Redundancy, RedundancyParameters};
-use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2};
+use kinematics_core::{
+    Cylinders, GeometryError, Joints, Machine, PinGeometry, PlaneTip, Pose, PoseError, Rotor, Singular, Vec2,
+};
 use stm32f4::stm32f405::Peripherals;
 
 use crate::coils::coils;
@@ -112,6 +114,12 @@ fn angles_cylinders_to_tip(seed: &Dimensions, cylinders: &[f32; 3]) -> [f32; 3] 
 #[inline(never)]
 fn angles_tip_to_cylinders(seed: &Dimensions, tip: &[f32; 3]) -> [f32; 3] {
     seed.tip_to_cylinders(*tip)
+}
+
+/// The maps of another bucket.
+#[inline(never)]
+fn machine_new(geometry: &PinGeometry) -> Result<Machine<f32>, GeometryError> {
+    Machine::new(geometry)
 }
 
 #[inline(never)]
@@ -286,6 +294,7 @@ fn main() -> ! {
     row(&mut out, s, "tip_twist_to_cylinder_rates", jacobian, |j| tip_twist_to_cylinder_rates(j, &twist));
     let tip = |t: f32| m.cylinders_to_tip_unchecked(&along(t), swing).plane;
     row(&mut out, s, "tip_to_cylinders", tip, |tip| tip_to_cylinders(m, tip));
+    row(&mut out, s, "machine_new", |_| geometry, |geometry| machine_new(geometry).is_ok());
     row(&mut out, s, "rotor_from_turns", |t| t - 0.5, |t| rotor_from_turns(*t));
     let end = |l: [f64; 3]| {
         let [boom, arm, bucket] = l;

@@ -75,6 +75,44 @@ pub static MODE: Message<3> = Message {
     signals: [Signal::states("Mode", 0, 4, &MODES), COUNTER, CRC],
 };
 
+/// Names of the service tasks.
+pub const TASKS: [(u32, &str); 8] = [
+    (0, "none"),
+    (1, "mount_bucket"),
+    (2, "valve_search"),
+    (3, "end_stops"),
+    (4, "touch"),
+    (5, "measure_up"),
+    (6, "jog"),
+    (7, "keep"),
+];
+
+/// Names of the spools.
+pub const SPOOL_NAMES: [(u32, &str); 4] = [(0, "swing"), (1, "boom"), (2, "arm"), (3, "bucket")];
+
+/// Signed current of a jog; extending positive.
+const JOG_CURRENT: Scale = Scale { factor: 0.0001, offset: -3.0, unit: "A" };
+
+/// What the service tool wants done.
+pub static SERVICE: Message<6> = Message {
+    header: Header {
+        sender: Sender::ServiceTool,
+        ..command(
+            "ServiceCommand",
+            65286,
+            "What the engineer's service tool wants done: mount a bucket, calibrate, jog, keep what was found (docs/calibration.md).",
+        )
+    },
+    signals: [
+        Signal::states("Task", 0, 4, &TASKS),
+        Signal::states("Spool", 4, 4, &SPOOL_NAMES),
+        Signal::bits("Number", 8, 8),
+        Signal::measured("JogCurrent", 16, 16, JOG_CURRENT, [-3.0, 3.0]),
+        COUNTER,
+        CRC,
+    ],
+};
+
 const SLOPE_ANGLE: Scale = Scale { factor: 1.0 / 32768.0, offset: -250.0, unit: "deg" };
 const COMPENSATION: [(u32, &str); 2] = [(0, "on"), (1, "off")];
 /// Figure of merit; what its third state means to a receiver is what "error" says.

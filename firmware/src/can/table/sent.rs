@@ -6,7 +6,7 @@ use crate::can::receive::Validity;
 use crate::can::signal::{Scale, Signal};
 use crate::fault::{Fault, State};
 
-const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'static str) -> Header {
+pub(super) const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'static str) -> Header {
     let [ms, phase_ms] = every;
     let rate = Rate::Every { ms, phase_ms };
     Header { name, about, pgn, priority: 6, sender: Sender::Controller, rate, bytes: 8, protected: false }
@@ -155,7 +155,7 @@ const fn reception(name: &'static str, start: u8) -> Signal {
 }
 
 /// What the controller thinks of each received message.
-pub static RECEPTION: Message<10> = Message {
+pub static RECEPTION: Message<11> = Message {
     header: telemetry("Reception", 65303, [100, 7], "Validity of each received message."),
     signals: [
         reception("SwingCommand", 0),
@@ -168,5 +168,6 @@ pub static RECEPTION: Message<10> = Message {
         reception("BoomPressures", 28),
         reception("ArmPressures", 32),
         reception("BucketPressures", 36),
+        reception("ServiceCommand", 40),
     ],
 };
