@@ -3,6 +3,7 @@
 
 use std::collections::VecDeque;
 
+use firmware::sensing::SensorView;
 use firmware::Fault;
 use firmware::diagnosis::{Diagnosis, DiagnosisParameters, Pressures};
 use firmware::io::Speeds;
@@ -127,7 +128,7 @@ pub fn code(position_m: f64, noise: &mut Noise) -> u16 {
 pub fn diagnosis() -> Diagnosis {
     let parameters = DiagnosisParameters::of_full_speeds([[FULL_MPS as f32; 2]; 4]);
     parameters.validate().expect("valid defaults");
-    Diagnosis::new(&parameters, [UNIT_M as f32; 4])
+    Diagnosis::new(&parameters, [SensorView { unit: UNIT_M as f32, stops: [0, u16::MAX] }; 4])
 }
 
 /// One tick of the diagnosis: what it says after these codes, before these speeds are sent.
