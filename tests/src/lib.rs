@@ -24,6 +24,7 @@ pub mod papers;
 pub mod promises;
 pub mod rates;
 pub mod rig;
+pub mod ways;
 pub mod stated;
 pub mod sweep;
 pub mod wide;
