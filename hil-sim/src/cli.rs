@@ -9,6 +9,7 @@ pub mod icd;
 pub mod machine;
 pub mod params;
 mod planar_arm;
+pub mod plant;
 pub mod pose;
 mod progress;
 pub mod run;
@@ -51,6 +52,8 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
     Coil(coil::CoilArgs),
+    /// Show the hydraulic plant of a machine: strokes at full lever with pressures and flow, and how fast it is
+    Plant(plant::PlantArgs),
     /// Print instruction counts of the maps and of the tick on the emulated ECU
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
@@ -91,6 +94,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
+        Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.

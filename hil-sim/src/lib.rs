@@ -16,6 +16,7 @@
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
+//! - [`plant_trial`] — strokes of the hydraulic plant at full lever;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
 //! - [`cli`] — the `hil` command.
 
@@ -31,6 +32,7 @@ pub mod machine_report;
 pub mod place;
 pub mod planar_arm;
 pub mod plant;
+pub mod plant_trial;
 pub mod record;
 pub mod report;
 pub mod run;

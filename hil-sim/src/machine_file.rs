@@ -6,6 +6,7 @@ mod dynamics;
 mod error;
 mod find;
 mod frankel;
+mod hydraulics;
 mod koivo;
 mod outline;
 mod parse;
@@ -20,6 +21,7 @@ use kinematics_core::planning::outline::{Outline, OutlineShape};
 pub use dynamics::{Dynamics, Link};
 use error::Layout;
 pub use error::MachineFileError;
+pub use hydraulics::Hydraulics;
 use parse::{Parsed, parse};
 
 /// A machine as its file gives it, validated.
@@ -35,6 +37,8 @@ pub struct MachineFile {
     pub boom_pin_height_m: f64,
     /// Masses and inertias, where the file has them.
     pub dynamics: Option<Dynamics>,
+    /// Pump, oil, spools and functions, where the file has them.
+    pub hydraulics: Option<Hydraulics>,
     /// Sizes of the linkage's outline: the defaults of its pins where the file does not state them.
     pub outline: OutlineShape,
 }
@@ -68,14 +72,16 @@ impl MachineFile {
         let geometry = geometry
             .and_then(|geometry| geometry.validate().map(|()| geometry))
             .map_err(|error| invalid(None, layout.explain(&error)))?;
-        let (name, description, dynamics, outline) = match parsed {
-            Parsed::Pins(f) => (f.name, f.description, f.dynamics, f.outline),
-            Parsed::Frankel(f) => (f.name, f.description, f.dynamics, f.outline),
-            Parsed::Koivo(f) => (f.name, f.description, f.dynamics, f.outline),
+        let (name, description, dynamics, hydraulics, outline) = match parsed {
+            Parsed::Pins(f) => (f.name, f.description, f.dynamics, f.hydraulics, f.outline),
+            Parsed::Frankel(f) => (f.name, f.description, f.dynamics, f.hydraulics, f.outline),
+            Parsed::Koivo(f) => (f.name, f.description, f.dynamics, f.hydraulics, f.outline),
         };
         let dynamics = dynamics.map(|table| table.dynamics());
+        let hydraulics = hydraulics.map(|table| table.hydraulics(&geometry)).transpose();
+        let hydraulics = hydraulics.map_err(|what| invalid(None, what))?;
         let outline = outline.unwrap_or_default().shape(&geometry);
         Outline::<f64>::new(&geometry, &outline).map_err(|error| invalid(None, error.to_string()))?;
-        Ok(Self { name, description, geometry, boom_pin_height_m, dynamics, outline })
+        Ok(Self { name, description, geometry, boom_pin_height_m, dynamics, hydraulics, outline })
     }
 }

@@ -1,4 +1,5 @@
-//! `[dynamics]`: masses, centres of mass and inertias. The table may be absent; where it stands it is complete.
+//! `[dynamics]`: masses, centres of mass and inertias. The table may be absent; where it stands it is complete, but for what only the
+//! hydraulic plant asks.
 
 use kinematics_core::Vec2;
 use serde::Deserialize;
@@ -25,6 +26,12 @@ pub struct Dynamics {
     pub arm: Link,
     /// The empty bucket.
     pub bucket: Link,
+    /// Of the upper structure about the swing axis, without the links, kg m²; for the hydraulic plant.
+    pub upper_inertia_kgm2: Option<f64>,
+    /// Width of the bucket, m; for digging.
+    pub bucket_width_m: Option<f64>,
+    /// What it holds, m³; for digging.
+    pub bucket_capacity_m3: Option<f64>,
 }
 
 /// Masses and inertias are above 0 as lengths are.
@@ -43,6 +50,9 @@ pub(super) struct DynamicsTable {
     bucket_centre_x_m: Number,
     bucket_centre_z_m: Number,
     bucket_inertia_kgm2: Length,
+    upper_inertia_kgm2: Option<Length>,
+    bucket_width_m: Option<Length>,
+    bucket_capacity_m3: Option<Length>,
 }
 
 impl DynamicsTable {
@@ -61,6 +71,9 @@ impl DynamicsTable {
                 &self.bucket_centre_z_m,
                 &self.bucket_inertia_kgm2,
             ),
+            upper_inertia_kgm2: self.upper_inertia_kgm2.map(|inertia| inertia.0),
+            bucket_width_m: self.bucket_width_m.map(|width| width.0),
+            bucket_capacity_m3: self.bucket_capacity_m3.map(|capacity| capacity.0),
         }
     }
 }

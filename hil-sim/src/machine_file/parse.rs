@@ -37,10 +37,11 @@ enum Labels {
     Koivo,
 }
 
-const TAGS: [toml_text::Tag; 3] = [
+const TAGS: [toml_text::Tag; 4] = [
     ("kind", "`\"pins\"` or `\"distances\"`"),
     ("labels", "`\"frankel\"` or `\"koivo\"`"),
     ("boom_cylinder", "`\"below\"` or `\"above\"`"),
+    ("hydraulics.compensation", "`\"pre\"` or `\"post\"`"),
 ];
 
 fn strictly<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {

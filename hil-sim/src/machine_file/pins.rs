@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::dynamics::DynamicsTable;
+use super::hydraulics::HydraulicsTable;
 use super::outline::OutlineTable;
 use super::value::{Length, Number};
 
@@ -23,6 +24,7 @@ pub(super) struct PinsFile {
     bucket: Bucket,
     swing: Option<Swing>,
     pub(super) dynamics: Option<DynamicsTable>,
+    pub(super) hydraulics: Option<HydraulicsTable>,
     pub(super) outline: Option<OutlineTable>,
 }
 

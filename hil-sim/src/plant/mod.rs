@@ -2,12 +2,14 @@
 
 pub mod actuator;
 pub mod coil;
+pub mod hydraulic;
 pub mod sensors;
 pub mod swing;
 
 use firmware::io::{SPOOLS, Solenoids};
 
 use coil::{Broken, Drive, Solenoid, SolenoidModel};
+use hydraulic::{HydraulicModel, HydraulicPlant, StartError};
 
 pub use actuator::{Actuator, ActuatorModel, Defect};
 pub use swing::SwingDrive;
@@ -41,8 +43,17 @@ pub struct Driven {
 #[derive(Clone, Debug)]
 pub struct Plant {
     solenoids: [Solenoids<Solenoid>; 4],
-    actuators: [Actuator; 4],
+    machine: Machine,
     full_scale_a: f64,
+}
+
+/// What the solenoids move.
+#[derive(Clone, Debug)]
+enum Machine {
+    /// Actuators at set speeds.
+    Speeds([Actuator; 4]),
+    /// Oil and masses.
+    Hydraulic(Box<HydraulicPlant>),
 }
 
 impl Plant {
@@ -51,20 +62,40 @@ impl Plant {
         let mut start = start.into_iter();
         // As many positions as models.
         let actuators = models.map(|model| Actuator::new(model, start.next().unwrap_or_default(), STEP_S));
+        Self::of(Machine::Speeds(actuators), coil)
+    }
+
+    /// A hydraulic machine at rest at these positions.
+    ///
+    /// # Errors
+    /// The start is outside a stroke.
+    pub fn hydraulic(model: &HydraulicModel, coil: CoilModel, start: [f64; 4]) -> Result<Self, StartError> {
+        let plant = HydraulicPlant::new(model, start)?;
+        Ok(Self::of(Machine::Hydraulic(Box::new(plant)), coil))
+    }
+
+    fn of(machine: Machine, coil: CoilModel) -> Self {
         let solenoid = Solenoid::new(coil.winding, coil.temperature_c);
-        Self { solenoids: [[solenoid; 2]; 4], actuators, full_scale_a: coil.full_scale_a }
+        Self { solenoids: [[solenoid; 2]; 4], machine, full_scale_a: coil.full_scale_a }
     }
 
     /// One step: duties to currents, currents to motion.
     pub fn step(&mut self, driven: &Driven) {
         let Driven { cut_off_closed, supply_v, .. } = *driven;
-        for ((actuator, solenoids), duties) in self.actuators.iter_mut().zip(&mut self.solenoids).zip(driven.duties) {
+        for (solenoids, duties) in self.solenoids.iter_mut().zip(driven.duties) {
             for (solenoid, duty) in solenoids.iter_mut().zip(duties) {
                 solenoid.step(&Drive { duty: f64::from(duty) / 65535.0, supply_v, cut_off_closed }, STEP_S);
             }
-            let [extend, retract] = solenoids.each_ref().map(Solenoid::current_a);
-            let command = (extend - retract) / self.full_scale_a;
-            actuator.step(command.clamp(-1.0, 1.0), STEP_S);
+        }
+        let currents = self.solenoids.each_ref().map(|spool| spool.each_ref().map(Solenoid::current_a));
+        match &mut self.machine {
+            Machine::Speeds(actuators) => {
+                for (actuator, [extend, retract]) in actuators.iter_mut().zip(currents) {
+                    let command = (extend - retract) / self.full_scale_a;
+                    actuator.step(command.clamp(-1.0, 1.0), STEP_S);
+                }
+            }
+            Machine::Hydraulic(plant) => plant.step(currents),
         }
     }
 
@@ -78,23 +109,40 @@ impl Plant {
         self.solenoids[spool][side].broken = broken;
     }
 
-    /// Spoils a spool or its oil, or repairs it.
+    /// Spoils a spool or its oil, or repairs it; of actuators at set speeds alone.
     pub fn set_defect(&mut self, spool: usize, defect: Option<Defect>) {
-        self.actuators[spool].defect = defect;
+        if let Machine::Speeds(actuators) = &mut self.machine {
+            actuators[spool].defect = defect;
+        }
     }
 
     /// Pressures of boom, arm and bucket, \[head, rod\], Pa; `None` of a plant without oil.
     pub fn pressures_pa(&self) -> Option<[[f64; 2]; 3]> {
-        None
+        self.oil().map(HydraulicPlant::pressures_pa)
+    }
+
+    /// The hydraulic machine, where it is one.
+    pub fn oil(&self) -> Option<&HydraulicPlant> {
+        match &self.machine {
+            Machine::Speeds(_) => None,
+            Machine::Hydraulic(plant) => Some(plant),
+        }
     }
 
     /// True positions of swing, boom, arm, bucket: m, a swing motor rad.
     pub fn positions(&self) -> [f64; 4] {
-        self.actuators.each_ref().map(Actuator::position)
+        match &self.machine {
+            Machine::Speeds(actuators) => actuators.each_ref().map(Actuator::position),
+            Machine::Hydraulic(plant) => plant.positions(),
+        }
     }
 
     /// Names of the cylinders a travel stop holds back.
     pub fn against_stops(&self) -> impl Iterator<Item = &'static str> {
-        self.actuators.iter().zip(SPOOLS).filter(|(actuator, _)| actuator.against_stop()).map(|(_, name)| name)
+        let held = match &self.machine {
+            Machine::Speeds(actuators) => actuators.each_ref().map(Actuator::against_stop),
+            Machine::Hydraulic(plant) => plant.against_stops(),
+        };
+        held.into_iter().zip(SPOOLS).filter(|&(held, _)| held).map(|(_, name)| name)
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`table()`] — the short table after a run;
 //! - [`write_coil`] — the folder of the coil current loop: `coil.html`, `coil.json`;
+//! - [`write_plant`] — the folder of a hydraulic plant: `plant.html`, `plant.json`, an SVG a stroke;
 //! - [`write`](fn@write) — the folder of a run: `report.html`, `linkage.svg`, `log.csv`, `summary.json`;
 //! - [`draw_only`] — the folder of a dig that is drawn but not run: `report.html`, `linkage.svg`, `dig.csv`.
 //!
@@ -15,6 +16,7 @@ mod figures;
 mod html;
 mod machine;
 mod planar_arm;
+mod plant;
 mod run;
 mod scene;
 mod series;
@@ -26,6 +28,7 @@ pub use coil::write_coil;
 pub use dig::draw_only;
 pub use machine::write_machine;
 pub use planar_arm::{planar_arm_table, write_planar_arm};
+pub use plant::write_plant;
 pub use run::write;
 pub use scene::write_scene;
 pub use table::table;

@@ -17,6 +17,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor};
 
 use crate::place::{Place, PlaceError};
 use crate::plant::coil::Broken;
+use crate::plant::hydraulic::StartError;
 use crate::plant::{Driven, Plant, SwingDrive};
 use crate::scenario::{Kind, Scenario, Task};
 use crate::travel::{Violation, violations};
@@ -69,6 +70,9 @@ pub enum RunError {
     /// The machine's geometry, which loading has checked.
     #[error(transparent)]
     Geometry(#[from] kinematics_core::GeometryError),
+    /// The hydraulic machine cannot stand at its start.
+    #[error("the hydraulic plant: {0}")]
+    Plant(#[from] StartError),
     /// The swing cannot stand where the scenario starts.
     #[error("`start.swing_deg`: {0}")]
     Swing(kinematics_core::PoseError<f64>),
@@ -94,7 +98,10 @@ impl<'a> Run<'a> {
             machine,
             dig,
             swing,
-            plant: Plant::new(scenario.plant, scenario.coil, start),
+            plant: match &scenario.hydraulic {
+                Some(model) => Plant::hydraulic(model, scenario.coil, start)?,
+                None => Plant::new(scenario.plant, scenario.coil, start),
+            },
             operator: Operator::new(scenario),
             bus: Bus::default(),
             wiring: Wiring::new(&scenario.parameters, swing, scenario.sensor_noise_m, seed),

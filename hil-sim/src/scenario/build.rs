@@ -11,13 +11,15 @@ use kinematics_core::geometry::Stroke;
 use kinematics_core::planning::effort::Piston;
 use kinematics_core::planning::hull::Sphere;
 use kinematics_core::planning::reach::Target;
-use kinematics_core::{Machine, PinGeometry, Rotor};
+use kinematics_core::{Machine, PinGeometry};
 
 use super::check::within;
 use super::file::{self, Reading, ScenarioFile};
+use super::plant::Built;
 use super::{Events, Scenario, Start, Task};
 use crate::machine_file::MachineFile;
 use crate::plant::coil::SolenoidModel;
+use crate::plant::hydraulic::HydraulicModel;
 use crate::plant::{ActuatorModel, CoilModel};
 
 /// Codes at the ends of a stroke: 0.5 V and 9.5 V of a 10 V converter, so that an open or shorted wire shows.
@@ -133,34 +135,6 @@ fn task(file: &mut ScenarioFile) -> Result<Task, String> {
     }
 }
 
-/// Swing, boom, arm, bucket of the plant.
-fn actuators(p: &file::Plant, machine: &Machine<f64>, geometry: &PinGeometry) -> Result<[ActuatorModel; 4], String> {
-    let model = |stroke, speed: f64, ratio: f64| ActuatorModel {
-        stroke,
-        dead_time_s: p.dead_time_s,
-        spool_lag_s: p.spool_lag_s,
-        dead_band: [p.dead_band_extend, p.dead_band_retract],
-        full_speed: [speed, speed * ratio],
-    };
-    let swing = match (machine.swing_cylinder(), geometry.swing) {
-        (Some(cylinder), Some(pins)) => {
-            let ahead = cylinder.length(Rotor::IDENTITY).and_then(|length| cylinder.moment_arm(length));
-            let moment_arm = ahead.map_err(|error| format!("`machine`: at zero swing: {error}"))?;
-            let speed = p.swing_speed_rad_s * moment_arm.abs();
-            model(Some(pins.stroke), speed, p.retract_speed_ratio)
-        }
-        // A motor is as fast either way.
-        _ => model(None, p.swing_speed_rad_s, 1.0),
-    };
-    let cylinder = |stroke, speed| model(Some(stroke), speed, p.retract_speed_ratio);
-    Ok([
-        swing,
-        cylinder(geometry.boom.stroke, p.boom_speed_mps),
-        cylinder(geometry.arm.stroke, p.arm_speed_mps),
-        cylinder(geometry.bucket.stroke, p.bucket_speed_mps),
-    ])
-}
-
 /// The start's lengths lie within the strokes.
 fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
     let range = |stroke: Stroke| [stroke.min_m, stroke.max_m];
@@ -170,6 +144,28 @@ fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
         ("start.arm_m", start.arm_m, range(g.arm.stroke)),
         ("start.bucket_m", start.bucket_m, range(g.bucket.stroke)),
     ])
+}
+
+/// The valve stage as a calibration would leave it; of a hydraulic function with its curve.
+fn coils(
+    valves: &[[ValveDirection; 2]; 4],
+    coil: &Coil,
+    inductance_h: f32,
+    hydraulic: Option<&HydraulicModel>,
+) -> CoilStageParameters {
+    let mut stage = CoilStageParameters::plain(valves, coil, inductance_h);
+    for (function, spool) in stage.spools.iter_mut().enumerate() {
+        for (flow, sign) in spool.flow.iter_mut().zip([1.0, -1.0]).filter(|_| hydraulic.is_some()) {
+            let [min_a, max_a] = [flow.min_current_a, flow.max_current_a].map(f64::from);
+            let last = flow.flow_table.len() - 1;
+            for (knot, share) in flow.flow_table.iter_mut().enumerate().take(last).skip(1) {
+                let current_a = min_a + (max_a - min_a) * knot as f64 / last as f64;
+                let speed = |a: f64| hydraulic.map_or(0.0, |model| model.steady_speed(function, sign * a));
+                *share = (speed(current_a) / speed(max_a)) as f32;
+            }
+        }
+    }
+    stage
 }
 
 pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<Scenario, String> {
@@ -185,7 +181,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
     let p = &file.plant;
     // Loading the machine has checked its geometry.
     let maps = Machine::new(g).map_err(|error| error.to_string())?;
-    let plant = actuators(p, &maps, g)?;
+    let Built { actuators: plant, hydraulic } = p.build(&machine, &maps)?;
     // The controller knows its valves as a calibration would leave them: here exactly.
     let valves = plant.map(|model| {
         [0, 1].map(|d| ValveDirection { dead_band: model.dead_band[d] as f32, full_speed: model.full_speed[d] as f32 })
@@ -199,7 +195,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             .swing
             .map_or(SwingSensor::Angle { zero_code: ZERO_CODE }, |s| SwingSensor::Cylinder(sensor(s.stroke))),
         cylinder_sensors: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(sensor),
-        coils: CoilStageParameters::plain(&valves, &coil, p.coil_inductance_h as f32),
+        coils: coils(&valves, &coil, p.coil_inductance_h as f32, hydraulic.as_ref()),
         supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
         sensor_supply: SENSOR_SUPPLY,
         motion: MotionParameters {
@@ -211,7 +207,11 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
             law: file.law.map(|law| law.parameters()),
         },
         dig: file.dig.as_ref().map(dig),
-        fence: file.fence.as_ref().map(|fence| fence.parameters(&machine, p.dead_time_s, p.spool_lag_s)).transpose()?,
+        fence: file
+            .fence
+            .as_ref()
+            .map(|fence| fence.parameters(&machine, plant[1].dead_time_s, plant[1].spool_lag_s))
+            .transpose()?,
         planned_move: file.planned_move.as_ref().map(|m| planned_move(m, &plant)),
         reach: file.reach.as_ref().map(|reach| self::reach(reach, &file.obstacle)).transpose()?,
         path: file.path.map(|path| path.parameters(&file.knot)).transpose()?,
@@ -227,6 +227,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         task,
         parameters,
         plant,
+        hydraulic,
         coil: CoilModel {
             full_scale_a: p.coil_full_scale_a,
             winding: SolenoidModel {

@@ -13,7 +13,7 @@ fn name(name: &str) -> Result<(), String> {
 }
 
 /// Each value within its range, by its field's name.
-pub(super) fn within(checks: &[(&str, f64, [f64; 2])]) -> Result<(), String> {
+pub(crate) fn within(checks: &[(&str, f64, [f64; 2])]) -> Result<(), String> {
     for &(field, value, [low, high]) in checks {
         // Written so that NaN fails.
         if !(value >= low && value <= high) {
@@ -36,21 +36,8 @@ pub(super) fn ranges(s: &ScenarioFile) -> Result<(), String> {
         ("motion.smallest_speed_mps", m.smallest_speed_mps, [0.0, 0.1]),
         ("motion.start_tolerance_m", m.start_tolerance_m, [0.001, 0.5]),
         ("motion.following_error_m", m.following_error_m, [m.start_tolerance_m, 0.5]),
-        ("plant.dead_time_s", p.dead_time_s, [0.0, 1.0]),
-        ("plant.spool_lag_s", p.spool_lag_s, [0.0, 1.0]),
-        ("plant.dead_band_extend", p.dead_band_extend, [0.0, 0.9]),
-        ("plant.dead_band_retract", p.dead_band_retract, [0.0, 0.9]),
-        ("plant.swing_speed_rad_s", p.swing_speed_rad_s, [0.005, 4.0]),
-        ("plant.boom_speed_mps", p.boom_speed_mps, [0.005, 4.0]),
-        ("plant.arm_speed_mps", p.arm_speed_mps, [0.005, 4.0]),
-        ("plant.bucket_speed_mps", p.bucket_speed_mps, [0.005, 4.0]),
-        ("plant.retract_speed_ratio", p.retract_speed_ratio, [0.25, 1.25]),
-        ("plant.coil_inductance_h", p.coil_inductance_h, [0.005, 0.5]),
-        ("plant.coil_full_scale_a", p.coil_full_scale_a, [0.05, 5.0]),
-        ("plant.coil_resistance_ohm", p.coil_resistance_ohm, [0.5, 100.0]),
-        ("plant.supply_v", p.supply_v, [0.0, 48.0]),
-        ("plant.sensor_noise_m", p.sensor_noise_m, [0.0, 0.01]),
     ])?;
+    p.check()?;
     if o.begin_s <= o.enable_s {
         return Err(format!(
             "`operator.begin_s` is {} but must be after `operator.enable_s`, {}: enabling needs levers in neutral",

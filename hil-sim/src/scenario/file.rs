@@ -5,12 +5,15 @@ use serde::Deserialize;
 use super::event::Event;
 use super::fence::FenceTable;
 use super::modes::{GradeTable, KnotTable, LawTable, PathTable};
+use super::plant::Plant;
 use super::task::{LeverMove, Start, TipMove};
 use crate::toml_text::{Tag, strictly};
 
-const TAGS: [Tag; 3] = [
+const TAGS: [Tag; 5] = [
     ("fence.guards", "`\"linkage\"` or `\"tip\"`"),
     ("dig.reading", "`\"as_meant\"` or `\"as_published\"`"),
+    ("plant.model", "`\"speeds\"` or `\"hydraulic\"`"),
+    ("plant.soil", "`\"sand\"`, `\"loam\"` or `\"clay\"`"),
     ("move.pitch", "`\"free\"`, `\"fixed\"` or `\"bounded\"`"),
 ];
 
@@ -153,25 +156,6 @@ pub(super) struct Motion {
     pub(super) smallest_speed_mps: f64,
     pub(super) start_tolerance_m: f64,
     pub(super) following_error_m: f64,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Plant {
-    pub(super) dead_time_s: f64,
-    pub(super) spool_lag_s: f64,
-    pub(super) dead_band_extend: f64,
-    pub(super) dead_band_retract: f64,
-    pub(super) swing_speed_rad_s: f64,
-    pub(super) boom_speed_mps: f64,
-    pub(super) arm_speed_mps: f64,
-    pub(super) bucket_speed_mps: f64,
-    pub(super) retract_speed_ratio: f64,
-    pub(super) coil_full_scale_a: f64,
-    pub(super) coil_resistance_ohm: f64,
-    pub(super) coil_inductance_h: f64,
-    pub(super) supply_v: f64,
-    pub(super) sensor_noise_m: f64,
 }
 
 pub(super) fn parse(text: &str) -> Result<ScenarioFile, String> {

@@ -8,6 +8,7 @@ mod event;
 mod fence;
 mod file;
 mod modes;
+mod plant;
 mod task;
 
 use std::path::{Path, PathBuf};
@@ -15,8 +16,10 @@ use std::path::{Path, PathBuf};
 use firmware::Parameters;
 
 use crate::machine_file::{MachineFile, MachineFileError};
+use crate::plant::hydraulic::HydraulicModel;
 use crate::plant::{ActuatorModel, CoilModel};
 
+pub(crate) use check::within;
 pub use event::{Event, Events, Kind};
 pub use task::{LeverMove, Start, Task, TipMove};
 
@@ -41,6 +44,8 @@ pub struct Scenario {
     pub parameters: Parameters,
     /// Swing, boom, arm, bucket of the simulated machine.
     pub plant: [ActuatorModel; 4],
+    /// The hydraulic machine in their place, where the scenario asks for one; `plant` is then what a calibration would say of it.
+    pub hydraulic: Option<HydraulicModel>,
     /// Their coils.
     pub coil: CoilModel,
     /// Nominal supply, V.
