@@ -7,6 +7,9 @@ use firmware::{Fault, Outputs, Parameters, Request};
 use hil_sim::run::Log;
 use kinematics_core::{Cylinders, Rotor};
 
+/// Lengths with the tip 7.5 m out on the ground, m.
+const ON_THE_PLANE: [f64; 3] = [2.4743624, 1.8883742, 2.5020006];
+
 /// A machine that does at once what its controller asks for.
 struct Obedient {
     rig: Rig,
@@ -18,10 +21,12 @@ impl Obedient {
     fn new() -> Self {
         let mut parameters = scenario("grade-zx200").parameters;
         parameters.motion.preview_s = 0.0;
-        parameters.grade.as_mut().expect("a plane").tolerance_m = 1.0;
-        let mut rig = Rig::standing(&parameters, &[2.45, 2.2, 2.3]);
+        let plane = parameters.grade.as_mut().expect("a plane");
+        (plane.point_x_m, plane.tolerance_m) = (7.5, 1.0);
+        let mut rig = Rig::standing(&parameters, &ON_THE_PLANE);
         rig.start();
-        Self { rig, parameters, lengths: Cylinders { boom: 2.45, arm: 2.2, bucket: 2.3 } }
+        let [boom, arm, bucket] = ON_THE_PLANE;
+        Self { rig, parameters, lengths: Cylinders { boom, arm, bucket } }
     }
 
     fn tick(&mut self) -> Outputs {
@@ -73,7 +78,8 @@ fn graded(slope: Option<Slope>) -> f64 {
     let mut machine = Obedient::new();
     machine.rig.inputs.slope = slope;
     (machine.rig.request, machine.rig.levers) = (Request::Grade, [0, 0, 16_000, 0]);
-    let tips: Vec<_> = (0..6000).map(|_| machine.tick().pose.plane).collect();
+    let ticks = (0..6000).map(|_| machine.tick());
+    let tips: Vec<_> = ticks.inspect(|o| assert_eq!(o.fault, None)).map(|o| o.pose.plane).collect();
     // The plane is reached first.
     let (from, to) = (tips[4000], tips[5999]);
     f64::from((to.height - from.height) / (to.reach - from.reach))
@@ -103,7 +109,7 @@ fn too_far_from_the_plane_grading_is_refused_and_without_a_plane_not_configured(
         (|p| p.motion.law = None, Fault::NotConfigured),
     ] {
         spoil(&mut parameters);
-        let mut rig = Rig::standing(&parameters, &[2.4743624, 1.8883742, 2.5020006]);
+        let mut rig = Rig::standing(&parameters, &ON_THE_PLANE);
         rig.start();
         rig.request = Request::Grade;
         assert_eq!(rig.tick().fault, Some(fault));
