@@ -15,6 +15,8 @@ fn main() {
     for argument in ["-Tlink.x", "--nmagic"] {
         println!("cargo:rustc-link-arg-bins={argument}");
     }
-    // Where defmt's strings go; only this image logs.
-    println!("cargo:rustc-link-arg-bin=ecu-stm32f405=-Tdefmt.x");
+    // Where defmt's strings go; only these images log.
+    for image in ["ecu-stm32f405", "faults-emulated"] {
+        println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
+    }
 }

@@ -7,6 +7,8 @@ use crate::parameters::{ParameterError, within};
 /// The law's tuning beside preview and gain ([`crate::parameters::MotionParameters`]), and the limits it coordinates within.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LawParameters {
+    /// Share of the feed-forward that is used: 1, or 0 to follow by the error alone.
+    pub feed_forward: f32,
     /// How fast what a direction of a spool lacks in speed is learnt from its error, 1/s².
     pub integral_per_s2: f32,
     /// The most a direction may lack, m/s (a swing motor rad/s).
@@ -39,6 +41,7 @@ impl LawParameters {
     /// # Errors
     /// The first out of its range, by name.
     pub fn validate(&self) -> Result<(), ParameterError> {
+        within("motion.law.feed_forward", self.feed_forward.into(), [0.0, 1.0])?;
         within("motion.law.integral_per_s2", self.integral_per_s2.into(), [0.0, 100.0])?;
         within("motion.law.bias_limit_mps", self.bias_limit_mps.into(), [0.0, 0.1])?;
         within("motion.law.correction_limit_mps", self.correction_limit_mps.into(), [0.0, 1.0])?;

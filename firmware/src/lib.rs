@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod apart;
 pub mod board;
 mod bytes;
 pub mod calibration;

@@ -6,6 +6,7 @@ pub mod effort;
 pub mod faults;
 pub mod fence;
 pub mod icd;
+pub mod image;
 pub mod machine;
 pub mod params;
 mod planar_arm;
@@ -14,6 +15,7 @@ pub mod pose;
 mod progress;
 pub mod run;
 pub mod scenes;
+pub mod score;
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -46,6 +48,8 @@ enum Command {
     Run(run::RunArgs),
     /// Try fences with random operators on the simulated machine: whole linkage, tip only, none
     Fence(fence::FenceArgs),
+    /// Score the motion on drawn plants: the true tip against the path, open loop, proportional alone, uncalibrated, half the flow
+    Score(score::ScoreArgs),
     /// Break everything that can break, in every situation, thousands of times: what is seen, how soon, and the tip's way to standstill
     Faults(faults::FaultsArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
@@ -58,6 +62,8 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
     Icd(icd::IcdArgs),
+    /// Print what an ARM image's flash and stack are for
+    Image(image::ImageArgs),
 }
 
 /// Writes to standard output. A reader that has gone away has had what it wanted.
@@ -92,11 +98,13 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
+        Ok(Hil { command: Command::Score(args) }) => score::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
+        Ok(Hil { command: Command::Image(args) }) => image::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {
             pose::usage_error(&error, &arguments)

@@ -6,6 +6,7 @@
 //! - [`scenario`] — what to simulate: machine, dig, operator, plant, events;
 //! - [`travel`] — the dig against the travel limits, before anything moves;
 //! - [`plant`] — the simulated machine;
+//! - [`elf`] — what a linked image holds, who calls whom in it, and what stack that takes;
 //! - [`place`] — where the application runs: this process, or the emulated ECU;
 //! - [`planar_arm`] — scenarios of a planar arm round an obstacle, without a machine;
 //! - [`run`] — all of it together, tick by tick;
@@ -13,6 +14,7 @@
 //! - [`faults`] — the fault campaign: what is seen, how soon, and how far the tip still goes;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
+//! - [`score`] — the motion on plants that no tuning has seen;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
@@ -23,6 +25,7 @@
 pub mod cli;
 pub mod coil_trial;
 pub mod effort;
+pub mod elf;
 pub mod faults;
 pub mod fence;
 pub mod icd;
@@ -38,5 +41,6 @@ pub mod report;
 pub mod run;
 pub mod scenario;
 pub mod scenes;
+pub mod score;
 mod toml_text;
 pub mod travel;

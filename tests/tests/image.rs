@@ -1,12 +1,10 @@
 //! What the linked ARM images are made of: no fused multiply-add, which would round once where the host rounds twice, and no
 //! panic in the control loop.
 
+use hil_sim::elf::{Graph, instructions, thumb::Instruction};
 use hil_sim::place::Image;
 use object::read::elf::{ElfFile32, ProgramHeader};
-use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionKind};
-
-/// A Thumb instruction's halfwords; the second is 0 for a short one.
-type Instruction = (u16, u16);
+use object::{Endianness, Object, ObjectSymbol};
 
 /// VFMA, VFMS, VFNMA, VFNMS (ARM DDI 0403E, A7.7.228, A7.7.230): coprocessor 10 or 11, opcodes 1D01 and 1D10.
 fn is_fused_multiply_add((first, second): Instruction) -> bool {
@@ -17,41 +15,6 @@ fn is_fused_multiply_add((first, second): Instruction) -> bool {
 /// Any VFP multiply or addition: shows that the scan sees floating-point code at all.
 fn is_float_multiply((first, second): Instruction) -> bool {
     first & 0xffb0 == 0xee20 && second & 0x0e50 == 0x0a00
-}
-
-/// Every Thumb instruction of the ELF's code with its address, data between it left out by the mapping symbols `$t` and `$d`.
-fn instructions(elf: &[u8]) -> Vec<(u64, Instruction)> {
-    let file = object::File::parse(elf).expect("an ELF");
-    let mut marks: Vec<(u64, bool)> = file
-        .symbols()
-        .filter_map(|symbol| match symbol.name().ok()?.get(..2)? {
-            "$t" => Some((symbol.address() & !1, true)),
-            "$d" => Some((symbol.address() & !1, false)),
-            _ => None,
-        })
-        .collect();
-    marks.sort_unstable();
-    assert!(!marks.is_empty(), "no mapping symbols: the image was stripped");
-    let mut found = Vec::new();
-    for section in file.sections().filter(|section| section.kind() == SectionKind::Text) {
-        let bytes = section.data().expect("the section's bytes");
-        let halfword = |at: usize| bytes.get(at..at + 2).map(|b| u16::from_le_bytes([b[0], b[1]]));
-        let mut at = 0;
-        while let Some(first) = halfword(at) {
-            let address = section.address() + at as u64;
-            let before = marks.partition_point(|&(mark, _)| mark <= address);
-            let is_code = before > 0 && marks[before - 1].1;
-            if !is_code {
-                at += 2;
-                continue;
-            }
-            // Halfwords from 0b11101 upwards begin an instruction of two.
-            let long = first >> 11 >= 0b11101;
-            found.push((address, (first, if long { halfword(at + 2).unwrap_or(0) } else { 0 })));
-            at += if long { 4 } else { 2 };
-        }
-    }
-    found
 }
 
 #[test]
@@ -70,10 +33,10 @@ fn the_scan_knows_the_fused_instructions() {
 #[test]
 #[ignore = "needs the emulator: run cargo xtask test"]
 fn no_image_has_a_fused_multiply_add() {
-    for name in ["ecu-emulated", "bench-emulated"] {
+    for name in ["ecu-stm32f405", "ecu-emulated", "bench-emulated"] {
         let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
         let elf = std::fs::read(&image.path).expect("the image");
-        let all = instructions(&elf);
+        let all = instructions(&elf).expect("an image with symbols");
         let multiplies = all.iter().filter(|&&(_, i)| is_float_multiply(i)).count();
         let fused = all.iter().filter(|&&(_, i)| is_fused_multiply_add(i)).count();
         println!("{name}: {} instructions, {multiplies} float multiplies, {fused} fused", all.len());
@@ -82,56 +45,106 @@ fn no_image_has_a_fused_multiply_add() {
     }
 }
 
-/// The calls (BL) and long jumps (B.W) of the code, from where and to where.
-fn calls(elf: &[u8]) -> Vec<(u64, u64)> {
-    let jump = |&(at, (first, second)): &(u64, Instruction)| {
-        let is_jump = first & 0xf800 == 0xf000 && matches!(second & 0xd000, 0x9000 | 0xd000);
-        let bit = |half: u16, n: u32| u32::from(half >> n & 1);
-        let (sign, j1, j2) = (bit(first, 10), bit(second, 13), bit(second, 11));
-        let offset = sign << 24
-            | (1 ^ j1 ^ sign) << 23
-            | (1 ^ j2 ^ sign) << 22
-            | u32::from(first & 0x3ff) << 12
-            | u32::from(second & 0x7ff) << 1;
-        let offset = i64::from((offset << 7).cast_signed() >> 7);
-        is_jump.then(|| (at, (at + 4).wrapping_add_signed(offset)))
-    };
-    instructions(elf).iter().filter_map(jump).collect()
+/// The images that run the application, and the interrupt its tick runs in.
+const APPLICATIONS: [&str; 2] = ["ecu-stm32f405", "ecu-emulated"];
+const TICK: &str = "TIM2";
+
+fn elf(name: &str) -> Vec<u8> {
+    let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::read(&image.path).expect("the image")
 }
 
-/// The functions of the ELF, by address, under their mangled names.
-fn functions(elf: &[u8]) -> Vec<(u64, String)> {
-    let file = object::File::parse(elf).expect("an ELF");
-    let named = |symbol: object::Symbol<'_, '_>| Some((symbol.address() & !1, symbol.name().ok()?.to_owned()));
-    let is_mark = |name: &str| name.starts_with('$');
-    let mut all: Vec<_> = file
-        .symbols()
-        .filter(|symbol| symbol.kind() == object::SymbolKind::Text)
-        .filter_map(named)
-        .filter(|(_, name)| !is_mark(name))
-        .collect();
-    all.sort_unstable();
-    all
+fn graph(elf: &[u8]) -> Graph {
+    Graph::new(elf).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Where core's panics begin.
+fn panics(name: &str) -> bool {
+    ["core::panicking", "slice_index_fail", "unwrap_failed", "expect_failed", "rust_begin_unwind"]
+        .iter()
+        .any(|part| name.contains(part))
 }
 
 #[test]
 #[ignore = "needs the emulator: run cargo xtask test"]
-fn nothing_but_the_writing_of_messages_can_panic_in_the_control_image() {
-    let image = Image::build("ecu-emulated").unwrap_or_else(|error| panic!("{error}"));
-    let elf = std::fs::read(&image.path).expect("the image");
-    let functions = functions(&elf);
-    let holding = |at: u64| {
-        let after = functions.partition_point(|&(start, _)| start <= at);
-        functions[..after].last().map_or("", |(_, name)| name.as_str())
-    };
-    let panics = |name: &str| name.contains("9panicking") || name.contains("16slice_index_fail");
-    // Core's own number formatting, which writes the refusal of a parameter record before the loop begins.
-    let is_core = |name: &str| name.contains("4core3fmt") || name.contains("4core3num") || panics(name);
-    let into_panics: Vec<_> = calls(&elf).into_iter().filter(|&(_, to)| panics(holding(to))).collect();
-    assert!(into_panics.len() > 10, "the scan misses core's own panics: {into_panics:?}");
-    for (from, to) in into_panics {
-        assert!(is_core(holding(from)), "{} calls {}", holding(from), holding(to));
+fn the_control_task_reaches_no_panic_and_calls_nothing_unknown() {
+    for name in APPLICATIONS {
+        let graph = graph(&elf(name));
+        let tick = graph.reached(graph.named(TICK).expect("the tick"));
+        println!("{name}: {} functions from the tick", tick.len());
+        assert!(tick.len() > 40, "{name}: the graph misses calls");
+        for wanted in ["MoveFollower::follow", "Reach<T,_>::tick", "memcpy"] {
+            assert!(tick.values().any(|function| function.name.contains(wanted)), "{name}: {wanted}");
+        }
+        for function in tick.values() {
+            assert!(!panics(&function.name), "{name}: the tick reaches {}", function.name);
+            // Through a pointer anything might be called.
+            assert!(!function.indirect, "{name}: {} calls through a pointer", function.name);
+        }
+        // There are panics in the image, and the graph sees them: start-up may stop.
+        assert!(graph.functions().any(|(_, function)| panics(&function.name)), "{name}");
     }
+    let board = graph(&elf("ecu-stm32f405"));
+    let start = board.reached(board.named("main").expect("the start"));
+    assert!(start.values().any(|function| panics(&function.name)), "the scan misses the HAL's own panics");
+}
+
+/// What the core stacks by itself when an interrupt comes: registers, floating-point registers, alignment (ARM DDI 0403E, B1.5.7).
+const INTERRUPT_FRAME_BYTES: u32 = 8 * 4 + 18 * 4 + 4;
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_stack_has_a_bound_and_room_to_spare() {
+    for name in APPLICATIONS {
+        let elf = elf(name);
+        let graph = graph(&elf);
+        let deepest = |root: &str| {
+            let deepest =
+                graph.named(root).and_then(|root| graph.deepest(root)).unwrap_or_else(|error| panic!("{error}"));
+            println!("{name}, {root}: {} bytes", deepest.bytes);
+            deepest.bytes
+        };
+        let (tick, start) = (deepest(TICK) + INTERRUPT_FRAME_BYTES, deepest("main"));
+        // The emulated image holds the messages from and to the harness besides.
+        let budget = if name == "ecu-emulated" { 4096 + 512 } else { 4096 };
+        assert!(tick <= budget, "{name}: {tick} bytes for the tick");
+
+        let file = object::File::parse(&*elf).expect("an ELF");
+        let symbol = |wanted: &str| {
+            let found = file.symbols().find(|symbol| symbol.name() == Ok(wanted));
+            found.unwrap_or_else(|| panic!("{name} has no {wanted}")).address()
+        };
+        let reserved = symbol("_stack_start") - symbol("_stack_end");
+        assert!(reserved > 64 * 1024, "{name}: {reserved} bytes of stack");
+        // Start-up is over before the first tick; the idle loop's own stack is part of what `main` reaches.
+        let most = u64::from(start + tick);
+        assert!(most * 10 <= reserved * 7, "{name}: {most} of {reserved} bytes");
+    }
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_boards_image_keeps_within_its_flash_and_memory() {
+    let image = Image::build("ecu-stm32f405").unwrap_or_else(|error| panic!("{error}"));
+    println!("{} bytes of flash, {} of static memory", image.flash_bytes, image.ram_bytes);
+    // 96 KiB were wanted; docs/porting.md says where it goes.
+    assert!(image.flash_bytes > 10_000 && image.flash_bytes <= 216 * 1024);
+    assert!(image.ram_bytes > 0 && image.ram_bytes <= 24 * 1024);
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_code_that_waits_for_the_flash_lies_in_ram_and_calls_nothing() {
+    // The board's image only reads its parameters so far: the emulator's links the same file and writes.
+    let graph = graph(&elf("faults-emulated"));
+    let (at, waits) = graph
+        .functions()
+        .find(|(_, function)| function.name.ends_with("flash::wait_in_ram"))
+        .expect("the code that waits");
+    println!("{} bytes at {at:#x}", waits.size);
+    let ram = 0x2000_0000..0x2002_0000;
+    assert!(waits.size > 40 && ram.contains(&at) && ram.contains(&(at + waits.size)), "{waits:?} at {at:#x}");
+    assert!(waits.calls.is_empty() && !waits.indirect, "{waits:?}");
 }
 
 /// Where the parameters stand (memory.x): sectors 2 and 3 of the STM32F405.
@@ -140,9 +153,8 @@ const PARAMETERS: std::ops::Range<u64> = 0x0800_8000..0x0801_0000;
 #[test]
 #[ignore = "needs the emulator: run cargo xtask test"]
 fn no_image_loads_a_byte_into_the_parameters_sectors() {
-    for name in ["ecu-emulated", "bench-emulated"] {
-        let image = Image::build(name).unwrap_or_else(|error| panic!("{error}"));
-        let elf = std::fs::read(&image.path).expect("the image");
+    for name in ["ecu-stm32f405", "ecu-emulated", "bench-emulated"] {
+        let elf = elf(name);
         let file = ElfFile32::<Endianness>::parse(&*elf).expect("an ELF of 32 bits");
         let endian = file.endian();
         let loaded: Vec<(u64, u64)> = file

@@ -80,6 +80,8 @@ impl<F: BorrowMut<Followers>> Controller<F> {
     }
 
     /// CAN frames, converters and switches as the application's inputs.
+    // Not inlined: the tick would keep the scans on its stack.
+    #[inline(never)]
     pub fn read<B: Board>(&mut self, board: &mut B, overrun: bool) -> Inputs {
         self.node.aged();
         for _ in 0..FRAMES {
@@ -117,6 +119,8 @@ impl<F: BorrowMut<Followers>> Controller<F> {
     }
 
     /// Duties and cut-off, the frames due, and last the watchdog: fed only here, and only when every output took what it was given.
+    // Not inlined: the tick would keep the frames on its stack.
+    #[inline(never)]
     pub fn write<B: Board>(&mut self, board: &mut B, outputs: &Outputs) {
         let driven = drive(board, outputs);
         for frame in self.node.due(outputs, ActiveFaults::from(outputs.fault)).iter().flatten() {

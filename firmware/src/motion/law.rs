@@ -44,6 +44,7 @@ impl Channel {
 /// The law's state. Swing, boom, arm, bucket in every array.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Law {
+    feed_forward: f32,
     gain_per_s: f32,
     integral_per_tick: f32,
     bias_limit: f32,
@@ -68,6 +69,7 @@ impl Law {
         let mut delay = DelayLine::new();
         delay.set_delay(preview_ticks);
         Self {
+            feed_forward: p.feed_forward,
             gain_per_s: motion.gain_per_s,
             integral_per_tick: p.integral_per_s2 * TICK_S,
             bias_limit: p.bias_limit_mps,
@@ -127,7 +129,7 @@ impl Law {
             if strays && !quiet {
                 return Err(Fault::FollowingError);
             }
-            *speed = self.speed(index, feed, if quiet { 0.0 } else { error });
+            *speed = self.speed(index, self.feed_forward * feed, if quiet { 0.0 } else { error });
         }
         Ok(speeds)
     }

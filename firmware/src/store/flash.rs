@@ -131,6 +131,8 @@ impl<F: NorFlash> Store<F> {
     ///
     /// # Errors
     /// [`LoadError`]; every fault is named.
+    // Not inlined: both copies lie on the stack while it runs.
+    #[inline(never)]
     pub fn load(&mut self) -> Result<Loaded, LoadError> {
         let copies = [self.read(0).map_err(LoadError::Flash)?, self.read(1).map_err(LoadError::Flash)?];
         let swapped = second_is_newer(&copies);

@@ -5,6 +5,7 @@ use core::fmt;
 use kinematics_core::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::apart::apart;
 use crate::parameters::{ParameterError, Parameters};
 
 /// Buckets a record has room for.
@@ -59,8 +60,10 @@ pub struct StoredRecord {
     /// The machine's name.
     pub machine: Name,
     /// The parameters; of the bucket's geometry the chosen bucket's counts.
+    #[serde(deserialize_with = "apart")]
     pub parameters: Parameters,
     /// The buckets.
+    #[serde(deserialize_with = "apart")]
     pub buckets: [Option<Bucket>; MAX_BUCKETS],
 }
 

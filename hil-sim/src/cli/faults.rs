@@ -32,7 +32,7 @@ pub struct FaultsArgs {
     json: Option<PathBuf>,
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
     let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     match parts {
         Some((index, of)) if index < of => Ok(Shard { index, of }),

@@ -109,10 +109,11 @@ impl Plant {
         self.solenoids[spool][side].broken = broken;
     }
 
-    /// Spoils a spool or its oil, or repairs it; of actuators at set speeds alone.
+    /// Spoils a spool or its oil, or repairs it.
     pub fn set_defect(&mut self, spool: usize, defect: Option<Defect>) {
-        if let Machine::Speeds(actuators) = &mut self.machine {
-            actuators[spool].defect = defect;
+        match &mut self.machine {
+            Machine::Speeds(actuators) => actuators[spool].defect = defect,
+            Machine::Hydraulic(plant) => plant.set_defect(spool, defect),
         }
     }
 

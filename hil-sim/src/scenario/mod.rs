@@ -111,9 +111,14 @@ impl Scenario {
 
     /// A scenario from text that is known to be right, of this machine in place of the one it names and from this start.
     pub(crate) fn of_machine(text: &str, machine: MachineFile, start: Start) -> Result<Self, String> {
+        Self::of_text(text, machine, Some(start))
+    }
+
+    /// The same; without a start the text says where it is.
+    pub(crate) fn of_text(text: &str, machine: MachineFile, start: Option<Start>) -> Result<Self, String> {
         let mut scenario = file::parse(text)?;
         check::ranges(&scenario)?;
-        scenario.start = Some(start);
+        scenario.start = start.or(scenario.start);
         build::scenario(scenario, machine)
     }
 }

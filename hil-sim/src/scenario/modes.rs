@@ -98,6 +98,7 @@ impl LawTable {
         let piston = |bore_m, rod_m, count| Piston { bore_m, rod_m, count }.areas_m2().map(|area| area as f32);
         let cylinder = self.cylinder_acceleration_mps2 as f32;
         LawParameters {
+            feed_forward: 1.0,
             integral_per_s2: self.integral_per_s2 as f32,
             bias_limit_mps: self.bias_limit_mps as f32,
             correction_limit_mps: self.correction_limit_mps as f32,

@@ -5,10 +5,11 @@ mod app {
     use crate::flash::ParameterFlash;
     use crate::pins::{self, Chips, Ecu405, StartError};
     use crate::{log, safe_state, target};
+    use cortex_m::singleton;
     use firmware::board::Controller;
     use firmware::can::address::{Addresses, Name};
     use firmware::store::Store;
-    use firmware::{Followers, TICKS_PER_S};
+    use firmware::{Followers, Parameters, TICKS_PER_S};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -25,7 +26,7 @@ mod app {
     #[local]
     struct Local {
         board: Ecu405,
-        controller: Controller<&'static mut Followers>,
+        controller: &'static mut Controller<&'static mut Followers>,
         timer: CounterHz<TIM2>,
     }
 
@@ -39,7 +40,7 @@ mod app {
             (cx.device.TIM3, cx.device.TIM4),
             &mut rcc,
         );
-        let controller = controller(ParameterFlash::new(cx.device.FLASH), cx.local.followers);
+        let controller = controller(&parameters(ParameterFlash::new(cx.device.FLASH)), cx.local.followers);
         let chips = Chips { spi: cx.device.SPI1, dma: cx.device.DMA2, can: cx.device.CAN1, watchdog: cx.device.IWDG };
         let board = match pins::start(chips, gpio, outputs, &mut rcc) {
             Ok(board) => board,
@@ -54,17 +55,28 @@ mod app {
         (Shared {}, Local { board, controller, timer })
     }
 
-    /// The controller of the stored parameters; without them nothing ever moves.
-    fn controller(flash: ParameterFlash, followers: &'static mut Followers) -> Controller<&'static mut Followers> {
+    /// The stored parameters; without them nothing ever moves. Not inlined, nor is [`controller`]: one's values are off the stack before the
+    /// other's come.
+    #[inline(never)]
+    fn parameters(flash: ParameterFlash) -> Parameters {
         let Ok(mut store) = Store::new(flash) else { safe_state::halt(&|| defmt::error!("no store in these sectors")) };
         let Ok(loaded) = store.load() else { safe_state::halt(&|| defmt::error!("no approved parameters in flash")) };
         let Ok(parameters) = loaded.record.parameters_for(BUCKET) else {
             safe_state::halt(&|| defmt::error!("no such bucket"))
         };
-        match Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers) {
-            Ok(controller) => controller,
-            Err(_) => safe_state::halt(&|| defmt::error!("the parameters are refused")),
-        }
+        parameters
+    }
+
+    #[inline(never)]
+    fn controller(
+        parameters: &Parameters,
+        followers: &'static mut Followers,
+    ) -> &'static mut Controller<&'static mut Followers> {
+        let Ok(controller) = Controller::with(parameters, Addresses::DEFAULT, &NAME, followers) else {
+            safe_state::halt(&|| defmt::error!("the parameters are refused"))
+        };
+        let placed = singleton!(: Controller<&'static mut Followers> = controller);
+        placed.unwrap_or_else(|| safe_state::halt(&|| defmt::error!("started twice")))
     }
 
     #[idle]

@@ -18,6 +18,7 @@ use stm32f4xx_hal::rcc::{Config, Enable, Rcc};
 use stm32f4xx_hal::spi::{Mode, Phase, Polarity, Spi};
 use stm32f4xx_hal::timer::pwm::ErasedChannel;
 
+use crate::can_bus::CanBus;
 use crate::spi_dma::{Converter, DmaSpi, SharedBus};
 use crate::watchdog::IndependentWatchdog;
 
@@ -73,9 +74,8 @@ impl SetDutyCycle for Solenoid {
 }
 
 type Chip = Converter<AnyPin<Output>>;
-pub(crate) type Can = bxcan::Can<stm32f4xx_hal::can::Can<CAN1>>;
 /// The reference ECU.
-pub(crate) type Ecu405 = Parts<Chip, Solenoid, AnyPin<Output>, AnyPin<Input>, Can, IndependentWatchdog>;
+pub(crate) type Ecu405 = Parts<Chip, Solenoid, AnyPin<Output>, AnyPin<Input>, CanBus, IndependentWatchdog>;
 
 /// What the start-up takes.
 pub(crate) struct Chips {
@@ -171,7 +171,7 @@ pub(crate) fn start(chips: Chips, pins: OtherPins, outputs: OutputPins, rcc: &mu
         cut_off_read_back: pins.cut_off_read_back,
         enable: pins.enable,
         emergency_stop_released: pins.emergency_stop_released,
-        can,
+        can: CanBus::new(can),
         watchdog: IndependentWatchdog::start(chips.watchdog),
     })
 }

@@ -23,7 +23,7 @@ pub(crate) fn drop_outputs() {
     compiler_fence(Ordering::SeqCst);
 }
 
-/// Outputs dropped, said once, and then nothing: the watchdog resets the chip.
+/// Outputs dropped, said once, and then the image's rest.
 pub(crate) fn halt(why: &dyn Fn()) -> ! {
     static SAID: AtomicBool = AtomicBool::new(false);
     cortex_m::interrupt::disable();
@@ -32,9 +32,7 @@ pub(crate) fn halt(why: &dyn Fn()) -> ! {
     if !SAID.swap(true, Ordering::Relaxed) {
         why();
     }
-    loop {
-        compiler_fence(Ordering::SeqCst);
-    }
+    crate::rest()
 }
 
 #[panic_handler]

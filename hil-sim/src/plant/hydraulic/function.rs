@@ -62,6 +62,20 @@ impl FunctionModel {
     }
 }
 
+impl FunctionModel {
+    /// A place of the spool whose steady speed is near this one, for slow speeds, m/s or rad/s.
+    pub(super) fn place_of(&self, speed: f64) -> f64 {
+        let (direction, sign) = if speed > 0.0 { (0, 1.0) } else { (1, -1.0) };
+        // By halving: the curve rises.
+        let (mut low, mut high) = (self.dead_band[direction], 1.0);
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            if self.steady_speed(sign * middle).abs() < speed.abs() { low = middle } else { high = middle }
+        }
+        if speed == 0.0 { 0.0 } else { sign * high }
+    }
+}
+
 /// The oil on one side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Chamber {

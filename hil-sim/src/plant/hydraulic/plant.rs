@@ -14,7 +14,7 @@ use super::ledger::{Ledger, Loss, Observer};
 use super::model::HydraulicModel;
 use super::oil::ATMOSPHERE_PA;
 use super::spool::Spool;
-use crate::plant::STEP_S;
+use crate::plant::{Defect, STEP_S};
 
 /// Pressure of the low side of a cylinder that stands, Pa above the atmosphere.
 const PRELOAD_PA: f64 = 1.0e6;
@@ -52,6 +52,7 @@ pub struct HydraulicPlant {
     against_stop: [bool; 4],
     soil_force: [f64; 2],
     places: [f64; 4],
+    defects: [Option<Defect>; 4],
 }
 
 /// The empty bucket, and where its load lies.
@@ -136,6 +137,7 @@ impl HydraulicPlant {
             against_stop: [false; 4],
             soil_force: [0.0; 2],
             places: [0.0; 4],
+            defects: [None; 4],
         };
         (0..4).for_each(|f| plant.circuit.settle(f, volumes[f]));
         Ok(plant)
@@ -168,8 +170,14 @@ impl HydraulicPlant {
 
     fn substep<O: Observer>(&mut self, observer: &mut O) {
         let h = self.step_s;
-        for (place, spool) in self.places.iter_mut().zip(&mut self.spools) {
-            *place = spool.advance();
+        for (i, spool) in self.spools.iter_mut().enumerate() {
+            let asked = spool.advance();
+            self.places[i] = match self.defects[i] {
+                None => asked,
+                Some(Defect::Stuck) => self.places[i],
+                Some(Defect::Leaking(speed)) => asked + self.functions[i].model.place_of(speed),
+                Some(Defect::NoPressure) => 0.0,
+            };
         }
         let speeds = self.velocities();
         let mut loads = Loads { torques: [0.0; 4], damping: [0.0; 4], tip: TipResistance::default(), held: [None; 3] };
@@ -279,6 +287,12 @@ impl HydraulicPlant {
         }
         let volumes = model.volumes(self.actuators.positions[i]);
         self.circuit.settle(i, volumes);
+    }
+
+    /// Spoils a function's spool, or repairs it: stuck where it is; off its centre by what makes this speed; centred for want of pilot
+    /// pressure.
+    pub fn set_defect(&mut self, function: usize, defect: Option<Defect>) {
+        self.defects[function] = defect;
     }
 
     /// Changes the payload that stays in the bucket, kg: as if it were set down or taken off at rest.

@@ -1,0 +1,122 @@
+//! `hil score`: the motion on plants that no tuning has seen.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::faults::shard;
+use super::print_with_json;
+use super::progress::Progress;
+use crate::faults::Shard;
+use crate::machine_file::MachineFile;
+use crate::score::{LAW, Plants, Report, Setting, runs, score};
+
+/// Arguments of `hil score`.
+#[derive(Debug, Args)]
+pub struct ScoreArgs {
+    /// Plants drawn, 1 to 10000
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    seeds: u32,
+    /// A machine with `[hydraulics]`: its name, or the path of its file
+    #[arg(long, default_value = "zx200")]
+    machine: String,
+    /// Draw the plants to tune on instead of those kept for the score
+    #[arg(long)]
+    tuning: bool,
+    /// Tables `[motion]` and `[law]` of a scenario to try instead of the product's
+    #[arg(long, value_name = "FILE")]
+    law: Option<PathBuf>,
+    /// Without the controllers it is compared with
+    #[arg(long)]
+    alone: bool,
+    /// Only every n-th case, the i-th first: 0/1 is all
+    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
+    shard: Shard,
+    /// Write the table as JSON to a file, or to standard output with `-`
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+type AnyError = Box<dyn std::error::Error>;
+
+/// Runs the command; its exit status is 0, 1 it could not write, or 2 bad input.
+pub fn main(args: &ScoreArgs) -> ExitCode {
+    let report = match run(args) {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::from(2);
+        }
+    };
+    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
+        eprintln!("error: {error}");
+        return ExitCode::from(1);
+    }
+    ExitCode::SUCCESS
+}
+
+fn run(args: &ScoreArgs) -> Result<Report, AnyError> {
+    let machine = MachineFile::load(&args.machine)?;
+    let law = match &args.law {
+        Some(file) => std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?,
+        None => LAW.to_owned(),
+    };
+    let plants = if args.tuning { Plants::Tuning } else { Plants::HeldOut };
+    let setting = Setting { seeds: args.seeds, plants, law, alone: args.alone };
+    let progress = Mutex::new(Progress::new(&machine.name, runs(&setting).div_ceil(args.shard.of), 1.0, "runs"));
+    let report = score(&machine, &setting, args.shard, || {
+        // A poisoned lock only means that another run has panicked: it will tell.
+        if let Ok(mut progress) = progress.lock() {
+            progress.step();
+        }
+    })?;
+    if let Ok(progress) = progress.into_inner() {
+        progress.finish();
+    }
+    Ok(report)
+}
+
+fn table(report: &Report) -> String {
+    let mut out = format!(
+        "{}: {} drawn plants, simulated; distances of the true tip from the path [mm]\n  {:<13} {:>5} {:>6} {:>6} {:>6} | {:>9} {:>9} {:>12} \
+         {:>9} | {:>7} {:>6}\n",
+        report.machine,
+        report.seeds,
+        "task",
+        "m/s",
+        "RMS",
+        "p95",
+        "max",
+        "open loop",
+        "P alone",
+        "uncalibrated",
+        "half flow",
+        "done",
+        "still"
+    );
+    let mm = |m: Option<f64>| m.map_or("–".to_owned(), |m| format!("{:.1}", m * 1e3));
+    for row in &report.tasks {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "  {:<13} {:>5} {:>6.1} {:>6.1} {:>6.1} | {:>9} {:>9} {:>12} {:>9} | {:>4}/{:<2} {:>3}/{:<2}",
+            row.name,
+            row.speed_mps,
+            row.rmse_m * 1e3,
+            row.p95_m * 1e3,
+            row.max_m * 1e3,
+            mm(row.open_loop_rmse_m),
+            mm(row.proportional_rmse_m),
+            mm(row.uncalibrated_rmse_m),
+            mm(row.half_flow_rmse_m),
+            row.completed,
+            row.plants,
+            row.still_at_rest,
+            row.plants
+        );
+    }
+    out
+}

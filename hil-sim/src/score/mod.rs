@@ -1,0 +1,195 @@
+//! The score of the motion: tasks on plants that no tuning has seen, the true tip against the path.
+
+mod calibration;
+mod measure;
+mod task;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::faults::Shard;
+use crate::machine_file::MachineFile;
+use crate::place::Host;
+use crate::run::Run;
+use crate::scenario::Scenario;
+use measure::Deviation;
+use task::Controller;
+
+pub use task::{LAW, Task};
+
+/// Speeds of the tip, m/s.
+pub const SPEEDS_MPS: [f64; 2] = [0.3, 0.5];
+
+/// Which plants are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plants {
+    /// Those kept for the score: no tuning has used one.
+    HeldOut,
+    /// Those to tune on.
+    Tuning,
+}
+
+impl Plants {
+    /// Seeds of the drawn plants begin here.
+    const fn first(self) -> u64 {
+        match self {
+            Self::HeldOut => 0x5c0e_0000,
+            Self::Tuning => 1,
+        }
+    }
+}
+
+/// What is scored.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Plants drawn.
+    pub seeds: u32,
+    /// Which.
+    pub plants: Plants,
+    /// The tables `[motion]` and `[law]` of a scenario: [`LAW`], or what is to be tried.
+    pub law: String,
+    /// Without the controllers it is compared with.
+    pub alone: bool,
+}
+
+/// A row of the score.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// The task.
+    pub name: &'static str,
+    /// Speed asked of the tip, m/s.
+    pub speed_mps: f64,
+    /// Plants.
+    pub plants: usize,
+    /// Of the true tip normal to the path, over all plants, m.
+    pub rmse_m: f64,
+    /// The largest 95th percentile of a plant, m.
+    pub p95_m: f64,
+    /// Largest, m.
+    pub max_m: f64,
+    /// The better one of open loop and proportional alone, m.
+    pub baseline_rmse_m: Option<f64>,
+    /// Feed-forward alone, m.
+    pub open_loop_rmse_m: Option<f64>,
+    /// Error times gain alone, m.
+    pub proportional_rmse_m: Option<f64>,
+    /// Ours with the nominal plant's valve map, m.
+    pub uncalibrated_rmse_m: Option<f64>,
+    /// Its largest, m.
+    pub uncalibrated_max_m: Option<f64>,
+    /// Ours with half the pump's flow, m.
+    pub half_flow_rmse_m: Option<f64>,
+    /// Runs of ours that came to the end of the path without a fault.
+    pub completed: usize,
+    /// Runs of ours whose coils were still in the last second.
+    pub still_at_rest: usize,
+}
+
+/// The score.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The machine.
+    pub machine: String,
+    /// Plants drawn.
+    pub seeds: u32,
+    /// A row a task and speed.
+    pub tasks: Vec<Row>,
+}
+
+/// One run of a case.
+#[derive(Clone, Copy, Debug)]
+struct Result1 {
+    row: usize,
+    controller: Controller,
+    deviation: Deviation,
+}
+
+/// Runs of a score.
+pub fn runs(setting: &Setting) -> u64 {
+    (Task::ALL.len() * SPEEDS_MPS.len() * controllers(setting).len()) as u64 * u64::from(setting.seeds)
+}
+
+fn controllers(setting: &Setting) -> &'static [Controller] {
+    if setting.alone { &[Controller::Ours] } else { &Controller::ALL }
+}
+
+/// Runs the score's part; `done` is called after each run. The same plants give the same results in any split.
+///
+/// # Errors
+/// The machine has no hydraulics, or cannot do a task.
+pub fn score(machine: &MachineFile, setting: &Setting, shard: Shard, done: impl Fn() + Sync) -> Result<Report, String> {
+    let mut bases = Vec::new();
+    for task in Task::ALL {
+        for speed_mps in SPEEDS_MPS {
+            bases.push((task, speed_mps, task.scenario(machine, speed_mps, &setting.law)?));
+        }
+    }
+    let cases = bases.len() as u64 * u64::from(setting.seeds);
+    let mine: Vec<u64> = (0..cases).filter(|case| case % shard.of == shard.index).collect();
+    let results: Vec<Vec<Result1>> = mine
+        .into_par_iter()
+        .map(|case| {
+            let row = (case % bases.len() as u64) as usize;
+            let plant = setting.plants.first() + case / bases.len() as u64;
+            let (task, _, base) = &bases[row];
+            controllers(setting)
+                .iter()
+                .map(|&controller| {
+                    let deviation = run(base, *task, controller, plant)?;
+                    done();
+                    Ok(Result1 { row, controller, deviation })
+                })
+                .collect()
+        })
+        .collect::<Result<_, String>>()?;
+    let results: Vec<Result1> = results.into_iter().flatten().collect();
+    let tasks = bases.iter().enumerate().map(|(index, (task, speed_mps, _))| row(*task, *speed_mps, index, &results));
+    Ok(Report { machine: machine.name.clone(), seeds: setting.seeds, tasks: tasks.collect() })
+}
+
+fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Result<Deviation, String> {
+    let mut scenario = base.clone();
+    let nominal = scenario.hydraulic.clone().ok_or("the plant is not hydraulic")?;
+    let mut drawn = nominal.drawn(plant);
+    let coils = scenario.parameters.coils;
+    let believed = match controller {
+        Controller::Uncalibrated => calibration::exact(&nominal, &coils),
+        _ => calibration::calibrated(&drawn, &coils, plant),
+    };
+    scenario.parameters.coils = believed.coils;
+    scenario.parameters.motion.preview_s = believed.preview_s as f32;
+    controller.apply(&mut scenario.parameters, &mut drawn);
+    scenario.hydraulic = Some(drawn);
+    let mut host = Host::new(&scenario.parameters).map_err(|error| format!("{}: {error}", task.name()))?;
+    let run = Run::new(&scenario, plant).map_err(|error| format!("{}: {error}", task.name()))?;
+    let log = run.complete(&mut host, |_, _| {}).map_err(|error| error.to_string())?;
+    measure::deviation(&log, &task.corners()).ok_or_else(|| format!("{}: nothing was followed", task.name()))
+}
+
+fn row(task: Task, speed_mps: f64, index: usize, results: &[Result1]) -> Row {
+    let of =
+        |controller| results.iter().filter(move |r| r.row == index && r.controller == controller).map(|r| r.deviation);
+    let rmse = |controller| {
+        let (squares, ticks) = of(controller).fold((0.0, 0), |(s, n), d| (s + d.squares, n + d.ticks));
+        (ticks > 0).then(|| libm::sqrt(squares / ticks as f64))
+    };
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let (open, proportional) = (rmse(Controller::OpenLoop), rmse(Controller::Proportional));
+    let uncalibrated_rmse_m = rmse(Controller::Uncalibrated);
+    Row {
+        name: task.name(),
+        speed_mps,
+        plants: of(Controller::Ours).count(),
+        rmse_m: rmse(Controller::Ours).unwrap_or(f64::NAN),
+        p95_m: largest(&mut of(Controller::Ours).map(|d| d.p95_m)),
+        max_m: largest(&mut of(Controller::Ours).map(|d| d.max_m)),
+        baseline_rmse_m: open.zip(proportional).map(|(open, proportional)| open.min(proportional)),
+        open_loop_rmse_m: open,
+        proportional_rmse_m: proportional,
+        uncalibrated_rmse_m,
+        uncalibrated_max_m: uncalibrated_rmse_m.map(|_| largest(&mut of(Controller::Uncalibrated).map(|d| d.max_m))),
+        half_flow_rmse_m: rmse(Controller::HalfFlow),
+        completed: of(Controller::Ours).filter(|d| d.completed).count(),
+        still_at_rest: of(Controller::Ours).filter(|d| d.still).count(),
+    }
+}
