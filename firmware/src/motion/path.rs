@@ -5,6 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Real, Rotor};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
+use super::law::UnderWay;
 use super::profile::Profile;
 use super::resolve::resolve;
 use super::sum::Sum;
@@ -134,7 +135,7 @@ impl PathFollower {
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        shared: &mut Coordination,
+        (shared, under_way): (&mut Coordination, &mut UnderWay),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
@@ -180,7 +181,7 @@ impl PathFollower {
             feed_forward: rates.map(|rate| rate * factor),
             swing: self.swings.then_some([first_swing, swing_turns - first_swing]),
         };
-        let mut wanted = shared.close(&ahead, swing_lever, pose, lengths)?;
+        let mut wanted = shared.close(under_way, (&ahead, swing_lever), pose, lengths)?;
         wanted.dig_tick = self.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }
