@@ -5,15 +5,17 @@ use core::borrow::BorrowMut;
 use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::Intent;
+use crate::diagnosis::Diagnosis;
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
 use crate::fence::{Fence, Fenced, NO_CLEARANCE};
+use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
-use crate::supervisor::{Gate, Supervisor, Watched};
+use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
 use crate::valve::coil_stage::CoilStage;
@@ -24,6 +26,7 @@ use crate::valve::coil_stage::CoilStage;
 pub struct Ecu<F = Followers> {
     machine: Machine<f32>,
     sensing: Sensing,
+    diagnosis: Diagnosis,
     motion: Motion<F>,
     fence: Option<Fence>,
     supervisor: Supervisor,
@@ -31,6 +34,7 @@ pub struct Ecu<F = Followers> {
     /// What the coils' currents showed in the last tick.
     coil_fault: Option<FaultyCoil>,
     tick: u32,
+    freeze_frame: Option<FreezeFrame>,
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
 }
@@ -63,6 +67,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let fence =
             p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.coils.valves())).transpose()?;
         Ok(Self {
+            diagnosis: Diagnosis::new(&p.diagnosis, sensing.units()),
             sensing,
             motion: Motion::new(p, &machine, dig, followers)?,
             fence,
@@ -71,19 +76,36 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             valve: CoilStage::new(&p.coils)?,
             coil_fault: None,
             tick: 0,
+            freeze_frame: None,
             lengths: NO_LENGTHS,
             pose: NO_POSE,
         })
+    }
+
+    /// Takes the board's start-up report; before every step of it has passed nothing is enabled.
+    pub fn self_tested(&mut self, report: &SelfTest) {
+        self.supervisor.self_tested(report);
+    }
+
+    /// What was known at the first latched fault.
+    pub fn freeze_frame(&self) -> Option<&FreezeFrame> {
+        self.freeze_frame.as_ref()
     }
 
     /// One control period: everything from the sensors' codes to the coils' duties.
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let supply_v = self.sensing.supply_v(inputs);
         let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
+        self.diagnosis.judge(&inputs.codes, &inputs.pressures_pa);
 
         let wanted = self.sense_and_follow(inputs);
-        let watched = Watched { supply_v, sensor_supply_v, coil: self.coil_fault, stage_fault: wanted.err() };
+        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.err(), moving };
+        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
         let gate = self.supervisor.judge(inputs, &watched);
+        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
+            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
+        }
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
         let nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
@@ -94,14 +116,16 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         if let Some(fence) = &mut self.fence {
             fence.sent(&fenced.speeds);
         }
+        self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
         let outputs = Outputs {
             tick: self.tick,
             state: self.supervisor.state(),
             fault: self.supervisor.fault(),
+            late: inputs.overrun,
             cut_off_closed: gate == Gate::Open,
-            pose_valid: !matches!(watched.stage_fault, Some(Fault::Sensor(_) | Fault::Geometry)),
+            pose_valid: !watched.stage_fault.is_some_and(Fault::hides_pose),
             lengths: self.lengths,
             pose: self.pose,
             dig_tick: wanted.dig_tick,
@@ -116,14 +140,35 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         outputs
     }
 
-    /// Sensing → pose → motion → fence; the first stage at fault ends it.
+    // Not inlined: it is for faults.
+    #[inline(never)]
+    fn freeze(&self, inputs: &Inputs, watched: &Watched, state: State, fault: Fault) -> FreezeFrame {
+        FreezeFrame {
+            tick: self.tick,
+            fault,
+            state,
+            codes: inputs.codes,
+            lengths: self.lengths,
+            speeds: self.diagnosis.speeds(),
+            supply_v: watched.supply_v,
+            command: inputs.command,
+            sent: self.diagnosis.last_sent(),
+        }
+    }
+
+    /// Sensing → diagnosis → pose → motion → fence; the first stage at fault ends it.
     fn sense_and_follow(&mut self, inputs: &Inputs) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
         // Without a fresh command nothing is wanted, and the supervisor stops what runs.
         let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
+            let suspected = self.diagnosis.fault();
+            if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
+                return Err(fault);
+            }
             let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
+            suspected.map_or(Ok(()), Err)?;
             let wanted = {
                 let asked = (&intent, inputs.slope);
                 self.motion.follow(&self.machine, running, asked, &pose, &sensed.lengths)?

@@ -32,7 +32,7 @@ impl Outputs {
         let mut w = Writer::new(&mut bytes);
         w.bytes(self.tick.to_le_bytes());
         w.bytes([self.state.code(), self.fault.map_or(0, Fault::code)]);
-        w.flags([self.cut_off_closed, self.pose_valid]);
+        w.flags([self.cut_off_closed, self.pose_valid, self.late]);
         w.cylinders(self.lengths);
         let pose = self.pose;
         for rotor in [pose.swing, pose.joints.boom, pose.joints.arm, pose.joints.bucket] {
@@ -73,7 +73,7 @@ impl Outputs {
             0 => None,
             value => Some(Fault::from_code(value).ok_or(FrameError { field: "fault", value })?),
         };
-        let [cut_off_closed, pose_valid] = r.flags().map_err(|value| FrameError { field: "flags", value })?;
+        let [cut_off_closed, pose_valid, late] = r.flags().map_err(|value| FrameError { field: "flags", value })?;
         let lengths = r.cylinders();
         let swing = r.rotor();
         let joints = Joints { boom: r.rotor(), arm: r.rotor(), bucket: r.rotor() };
@@ -83,6 +83,7 @@ impl Outputs {
             tick,
             state,
             fault,
+            late,
             cut_off_closed,
             pose_valid,
             lengths,

@@ -101,6 +101,8 @@ pub struct Outputs {
     pub state: State,
     /// The latched fault.
     pub fault: Option<Fault>,
+    /// The tick before did not finish in time; some in a row are a fault.
+    pub late: bool,
     /// The master cut-off is closed, so that current can flow.
     pub cut_off_closed: bool,
     /// The pose of this tick is valid; otherwise `pose` and `lengths` are the last valid ones.

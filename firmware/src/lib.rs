@@ -4,7 +4,7 @@
 //! pipeline; each stage has a configuration built once from [`Parameters`] and a small state, and hands on one value:
 //!
 //! ```text
-//! Inputs → sensing → pose → motion → fence → valve → Outputs
+//! Inputs → sensing → diagnosis → pose → motion → fence → valve → Outputs
 //!              the supervisor watches every stage and alone opens the gate between fence and valve
 //! ```
 //!
@@ -18,11 +18,13 @@ mod bytes;
 pub mod calibration;
 pub mod can;
 pub mod command;
+pub mod diagnosis;
 pub mod dig;
 mod ecu;
 pub mod fault;
 pub mod fence;
 pub mod frame;
+mod freeze_frame;
 pub mod grade;
 pub mod io;
 pub mod law;
@@ -43,9 +45,11 @@ pub mod valve;
 pub use command::Intent;
 pub use ecu::Ecu;
 pub use fault::{Fault, State};
+pub use freeze_frame::FreezeFrame;
 pub use io::{Inputs, Outputs, Request};
 pub use motion::Followers;
 pub use parameters::{ParameterError, Parameters};
+pub use supervisor::SelfTest;
 
 /// The control period, s.
 pub const TICK_S: f32 = 0.001;

@@ -10,6 +10,7 @@ use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::apart::apart;
+use crate::diagnosis::DiagnosisParameters;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::grade::GradeParameters;
@@ -109,6 +110,9 @@ pub struct Parameters {
     pub supply: Supply,
     /// Supply of the position sensors.
     pub sensor_supply: Supply,
+    /// What a healthy machine is like.
+    #[serde(deserialize_with = "apart")]
+    pub diagnosis: DiagnosisParameters,
     /// Motion.
     #[serde(deserialize_with = "apart")]
     pub motion: MotionParameters,
@@ -261,6 +265,7 @@ impl Parameters {
         self.supply.validate([(full_scale, [10.0, 100.0]), (min, [6.0, 60.0]), (max, [6.0, 60.0])])?;
         let [full_scale, min, max] = ["sensor_supply.full_scale_v", "sensor_supply.min_v", "sensor_supply.max_v"];
         self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
+        self.diagnosis.validate()?;
         self.motion.validate()?;
         self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
         self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;

@@ -87,6 +87,16 @@ impl Sensing {
         })
     }
 
+    /// What a code of each sensor is worth (swing, boom, arm, bucket): m, of a swing encoder rad.
+    pub fn units(&self) -> [f32; 4] {
+        let swing = match &self.swing {
+            SwingScale::Angle { .. } => core::f32::consts::TAU / 65536.0,
+            SwingScale::Cylinder { scale, .. } => scale.metres_per_code,
+        };
+        let [boom, arm, bucket] = self.cylinders.each_ref().map(|scale| scale.metres_per_code);
+        [swing, boom, arm, bucket]
+    }
+
     /// Supply voltage, V: valid whatever the other sensors say.
     pub fn supply_v(&self, inputs: &Inputs) -> f32 {
         f32::from(inputs.supply_code) * self.volts_per_code

@@ -42,6 +42,8 @@ const OVER_CURRENT: u8 = 6;
 const NOT_RESPONDING: u8 = 7;
 /// Abnormal update rate.
 const UPDATE_RATE: u8 = 9;
+/// Abnormal rate of change.
+const ABNORMAL_RATE: u8 = 10;
 /// Bad intelligent device or component.
 const BAD_DEVICE: u8 = 12;
 /// Out of calibration.
@@ -89,6 +91,28 @@ impl Fault {
             Self::CutOffStuckOpen => stop(14, NOT_RESPONDING),
             Self::SensorConverter => stop(15, BAD_DEVICE),
             Self::CoilConverter => stop(16, BAD_DEVICE),
+            Self::ParametersCorrupt => stop(17, ERRATIC),
+            Self::Memory => stop(18, BAD_DEVICE),
+            Self::ConverterSetUp => stop(19, NOT_CALIBRATED),
+            Self::OutputDrivers => stop(20, BAD_DEVICE),
+            Self::CutOffUnproven => stop(21, NOT_RESPONDING),
+            Self::LateTick => TroubleCode { lamp: Lamp::AmberWarning, ..stop(22, BAD_DEVICE) },
+            Self::Jump(Cylinder::Swing) => stop(23, ABNORMAL_RATE),
+            Self::Jump(Cylinder::Boom) => stop(24, ABNORMAL_RATE),
+            Self::Jump(Cylinder::Arm) => stop(25, ABNORMAL_RATE),
+            Self::Jump(Cylinder::Bucket) => stop(26, ABNORMAL_RATE),
+            Self::Stuck(Cylinder::Swing) => stop(27, ERRATIC),
+            Self::Stuck(Cylinder::Boom) => stop(28, ERRATIC),
+            Self::Stuck(Cylinder::Arm) => stop(29, ERRATIC),
+            Self::Stuck(Cylinder::Bucket) => stop(30, ERRATIC),
+            Self::Uncommanded(Cylinder::Swing) => stop(31, EXISTS),
+            Self::Uncommanded(Cylinder::Boom) => stop(32, EXISTS),
+            Self::Uncommanded(Cylinder::Arm) => stop(33, EXISTS),
+            Self::Uncommanded(Cylinder::Bucket) => stop(34, EXISTS),
+            Self::Against(Cylinder::Swing) => stop(35, NOT_RESPONDING),
+            Self::Against(Cylinder::Boom) => stop(36, NOT_RESPONDING),
+            Self::Against(Cylinder::Arm) => stop(37, NOT_RESPONDING),
+            Self::Against(Cylinder::Bucket) => stop(38, NOT_RESPONDING),
             Self::SensorSupply => stop(63, ERRATIC),
             // A number a coil; the identifier says what is wrong with it.
             Self::Coil(coil) => stop(64 + coil.coil(), failure_mode(coil.fault)),

@@ -62,6 +62,8 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Write the CAN interface page and DBC file from the firmware's tables, or check that they are up to date
     Icd(icd::IcdArgs),
+    /// Draw the supervisor and write the page of faults from the firmware's tables, or check that they are up to date
+    Supervisor(icd::IcdArgs),
     /// Print what an ARM image's flash and stack are for
     Image(image::ImageArgs),
 }
@@ -104,6 +106,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
+        Ok(Hil { command: Command::Supervisor(args) }) => icd::supervisor(&args),
         Ok(Hil { command: Command::Image(args) }) => image::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.
         Err(error) if error.use_stderr() && arguments.get(1).is_some_and(|a| a == "pose") => {

@@ -17,6 +17,7 @@
 //! - [`score`] — the motion on plants that no tuning has seen;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
+//! - [`supervisor_page`] — the supervisor drawn, and the page of faults;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
 //! - [`plant_trial`] — strokes of the hydraulic plant at full lever;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
@@ -42,5 +43,6 @@ pub mod run;
 pub mod scenario;
 pub mod scenes;
 pub mod score;
+pub mod supervisor_page;
 mod toml_text;
 pub mod travel;

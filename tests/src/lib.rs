@@ -6,6 +6,7 @@
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`differences`]: derivatives of the oracle by central differences;
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
+//! - [`healthy`]: healthy actuators with noise and delay, for the diagnosis;
 //! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`can`]: the controller's node on a bench bus;
@@ -18,6 +19,7 @@ pub mod boards;
 pub mod can;
 pub mod differences;
 pub mod golden;
+pub mod healthy;
 pub mod jacobians;
 pub mod machines;
 pub mod measure;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use firmware::can::command::TipVelocity;
 use firmware::io::Solenoids;
-use firmware::{Ecu, Inputs, Intent, Outputs, Parameters, Request, State};
+use firmware::{Ecu, Inputs, Intent, Outputs, Parameters, Request, SelfTest, State};
 use hil_sim::coil_trial::REFERENCE;
 use hil_sim::plant::STEP_S;
 use hil_sim::plant::coil::{CurrentAdc, Drive, Solenoid};
@@ -56,6 +56,9 @@ pub struct Rig {
     /// The solenoids.
     pub solenoids: [Solenoids<Solenoid>; 4],
     adc: CurrentAdc,
+    /// The sensors have noise.
+    pub noisy: bool,
+    ticked: u16,
 }
 
 /// Supply of the rig, V.
@@ -81,7 +84,8 @@ impl Rig {
     /// Anywhere: lengths of boom, arm and bucket cylinder, m.
     pub fn standing(parameters: &Parameters, &[boom, arm, bucket]: &[f64; 3]) -> Self {
         let sense = parameters.coils.sense;
-        let ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
+        let mut ecu = Ecu::new(parameters).unwrap_or_else(|error| panic!("{error}"));
+        ecu.self_tested(&SelfTest::PASSED);
         let mut rig = Self {
             ecu,
             inputs: Inputs {
@@ -104,6 +108,8 @@ impl Rig {
             sending: true,
             solenoids: [[Solenoid::new(REFERENCE, 20.0); 2]; 4],
             adc: CurrentAdc { full_scale_a: sense.full_scale_a.into(), zero_code: sense.zero_code, noise_a: 0.0 },
+            noisy: true,
+            ticked: 0,
         };
         rig.stand_at(parameters, &Cylinders { boom, arm, bucket });
         rig
@@ -122,9 +128,17 @@ impl Rig {
         self.inputs.command =
             self.sending.then_some(Intent { request: self.request, levers: self.levers, tip: self.tip });
         self.inputs.coil_codes = self.coil_codes();
-        let outputs = self.ecu.tick(&self.inputs);
+        let inputs = self.with_noise();
+        let outputs = self.ecu.tick(&inputs);
         self.drive(&outputs);
         outputs
+    }
+
+    /// A living sensor is never quite still; a broken wire is, and so is one at the end of its range.
+    fn with_noise(&mut self) -> Inputs {
+        self.ticked = if self.noisy { self.ticked.wrapping_add(1) } else { 0 };
+        let noise = |code: u16| if (2000..63_000).contains(&code) { code + self.ticked % 5 } else { code };
+        Inputs { codes: self.inputs.codes.map(noise), ..self.inputs }
     }
 
     /// What the coils' converter says.

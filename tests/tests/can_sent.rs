@@ -178,7 +178,7 @@ fn all_faults_are_told_in_packets_fifty_ticks_apart_most_urgent_first() {
     let listed = Fault::ALL.into_iter().take(31);
     let expected: Vec<_> = listed.map(|f| (f.trouble_code().spn, f.trouble_code().fmi, 1)).collect();
     for (_, bytes) in &told {
-        assert_eq!(decoded(bytes), (0b01_0000, expected.clone()));
+        assert_eq!(decoded(bytes), (0b01_0100, expected.clone()));
     }
     let packets: Vec<u32> = frames
         .iter()

@@ -128,6 +128,8 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(median("coil_stage_driven") <= 1200 && largest("coil_stage_driven") <= 1450);
     assert!(largest("coil_stage_dying") <= 1600);
     assert!(largest("coil_stage_off") <= 200);
+    // Of all four actuators.
+    assert!(largest("diagnosis_moving") <= 280 && largest("diagnosis_at_rest") <= 280);
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn every_byte_of_the_outputs_frame_is_used() {
     rig.start();
     rig.request = firmware::Request::Dig;
     for step in 0..400_u16 {
-        rig.inputs.codes[0] = 30_000 + step;
+        rig.inputs.codes[0] = 32_768 + step;
         if step == 300 {
             rig.inputs.emergency_stop = true;
         }

@@ -12,7 +12,7 @@ use crate::can::{CanFrame, Node};
 use crate::command::Intent;
 use crate::io::{Inputs, Outputs};
 use crate::motion::Followers;
-use crate::{Ecu, ParameterError, Parameters};
+use crate::{Ecu, Fault, ParameterError, Parameters, SelfTest};
 
 /// CAN frames taken in a tick: 500 kbit/s carry no more than four in a millisecond.
 const FRAMES: usize = 4;
@@ -71,6 +71,11 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         })
     }
 
+    /// As [`Ecu::self_tested`].
+    pub fn self_tested(&mut self, report: &SelfTest) {
+        self.ecu.self_tested(report);
+    }
+
     /// One control period: [`Self::read`], [`Self::tick`], [`Self::write`]. `overrun` says that the one before did not end in time.
     pub fn cycle<B: Board>(&mut self, board: &mut B, overrun: bool) -> Outputs {
         let inputs = self.read(board, overrun);
@@ -123,7 +128,9 @@ impl<F: BorrowMut<Followers>> Controller<F> {
     #[inline(never)]
     pub fn write<B: Board>(&mut self, board: &mut B, outputs: &Outputs) {
         let driven = drive(board, outputs);
-        for frame in self.node.due(outputs, ActiveFaults::from(outputs.fault)).iter().flatten() {
+        let latched = ActiveFaults::from(outputs.fault);
+        let active = if outputs.late { latched.with(Fault::LateTick) } else { latched };
+        for frame in self.node.due(outputs, active).iter().flatten() {
             if let Some(frame) = embedded_can::Frame::new(frame.extended_id(), embedded_can::Frame::data(frame)) {
                 // A full mailbox loses telemetry, nothing else.
                 let _ = board.can().transmit(&frame);

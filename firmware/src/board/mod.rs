@@ -5,6 +5,7 @@
 //! - [`Parts`] — a board put together from embedded-hal's and embedded-can's traits;
 //! - [`Disabled`] — the proof that nothing can move, which writing flash asks for;
 //! - [`ads8688`] — the analogue-to-digital converters of the reference ECU;
+//! - [`start_up`] — the pins' part of the self-test, before the first tick;
 //! - [`signals`] — which signal stands on which of their channels.
 //!
 //! `docs/porting.md` walks through a new board.
@@ -14,6 +15,7 @@ mod controller;
 mod disabled;
 mod parts;
 pub mod signals;
+pub mod start_up;
 
 use core::fmt;
 

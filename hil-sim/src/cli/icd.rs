@@ -1,4 +1,4 @@
-//! `hil icd`: writes the CAN interface page and the DBC file, or checks that they are up to date.
+//! `hil icd` and `hil supervisor`: write pages made from the firmware's tables, or check that they are up to date.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,9 +6,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::icd::files;
+use crate::{icd, supervisor_page};
 
-/// Arguments of `hil icd`.
+/// Arguments of `hil icd` and `hil supervisor`.
 #[derive(Debug, Args)]
 pub struct IcdArgs {
     /// Write nothing; fail when a file is not what would be written
@@ -19,16 +19,25 @@ pub struct IcdArgs {
     root: PathBuf,
 }
 
-/// Runs the command; its exit status is 0, 1 when a file is out of date, 2 when one cannot be read or written.
+/// Runs `hil icd`; its exit status is 0, 1 when a file is out of date, 2 when one cannot be read or written.
 pub fn main(args: &IcdArgs) -> ExitCode {
+    write_or_check(args, &icd::files(), "icd")
+}
+
+/// Runs `hil supervisor`, with the same exit status.
+pub fn supervisor(args: &IcdArgs) -> ExitCode {
+    write_or_check(args, &supervisor_page::files(), "supervisor")
+}
+
+fn write_or_check(args: &IcdArgs, files: &[(&'static str, String)], command: &str) -> ExitCode {
     let mut stale = false;
-    for (name, text) in files() {
+    for (name, text) in files {
         let path = args.root.join(name);
         if args.check {
             match fs::read_to_string(&path) {
-                Ok(found) if found == text => println!("{name}: up to date"),
+                Ok(found) if found == *text => println!("{name}: up to date"),
                 Ok(_) => {
-                    eprintln!("{name}: out of date; run cargo hil icd");
+                    eprintln!("{name}: out of date; run cargo hil {command}");
                     stale = true;
                 }
                 Err(error) => return failed("read", &path, &error),

@@ -46,6 +46,17 @@ pub(super) fn scenario(machine: &MachineFile, situation: Situation, mover: Mover
     let g = &machine.geometry;
     let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
     let speed = |i: usize| (strokes[i].max_m - strokes[i].min_m) / STROKE_TIMES_S[i];
+    let plant = if machine.hydraulics.is_some() {
+        "model = \"hydraulic\"\npayload_kg = 500.0\n".to_owned()
+    } else {
+        format!(
+            "dead_time_s = 0.1\nspool_lag_s = 0.05\ndead_band_extend = 0.15\ndead_band_retract = 0.20\nswing_speed_rad_s = 1.2\n\
+             boom_speed_mps = {}\narm_speed_mps = {}\nbucket_speed_mps = {}\nretract_speed_ratio = 0.8\n",
+            speed(0),
+            speed(1),
+            speed(2)
+        )
+    };
     let text = format!(
         "name = \"fault\"\ndescription = \"something breaks\"\nmachine = \"exact-mini\"\nduration_s = {DURATION_S}\n\
          [operator]\nenable_s = 0.2\nbegin_s = {BEGIN_S}\n\
@@ -53,13 +64,8 @@ pub(super) fn scenario(machine: &MachineFile, situation: Situation, mover: Mover
          [[lever]]\nat_s = 0.0\nuntil_s = 1.0\nswing = 0.0\nboom = 0.0\narm = 0.0\nbucket = 0.0\n\
          [motion]\npreview_s = 0.15\ngain_per_s = 2.0\nsmallest_speed_mps = 0.002\nstart_tolerance_m = 0.02\n\
          following_error_m = 0.1\n\
-         [plant]\ndead_time_s = 0.1\nspool_lag_s = 0.05\ndead_band_extend = 0.15\ndead_band_retract = 0.20\n\
-         swing_speed_rad_s = 1.2\nboom_speed_mps = {}\narm_speed_mps = {}\nbucket_speed_mps = {}\n\
-         retract_speed_ratio = 0.8\ncoil_full_scale_a = 1.2\ncoil_resistance_ohm = 5.3\ncoil_inductance_h = 0.1\n\
-         supply_v = 24.0\nsensor_noise_m = 0.0001\n",
-        speed(0),
-        speed(1),
-        speed(2),
+         [plant]\n{plant}coil_full_scale_a = 1.2\ncoil_resistance_ohm = 5.3\ncoil_inductance_h = 0.1\n\
+         supply_v = 24.0\nsensor_noise_m = 0.0001\n"
     );
     // Room for the motion of the whole run, or none.
     let [extending, at_stop] = [mover.side == 0, situation == Situation::EndStop];

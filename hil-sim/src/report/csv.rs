@@ -39,7 +39,7 @@ fn columns() -> Vec<(String, Value)> {
     let mut all = Vec::new();
     let mut add = |name: &str, cell: Value| all.push((name.to_owned(), cell));
     add("time_s", Box::new(|row, _| Cell::Double(row.time_s)));
-    add("state", Box::new(|row, _| Cell::Word(state(row))));
+    add("state", Box::new(|row, _| Cell::Word(row.outputs.state.name())));
     add("fault", Box::new(|row, _| row.outputs.fault.map_or(Cell::Empty, |fault| Cell::Word(fault.name()))));
     add("dig_tick", Box::new(|row, _| Cell::Whole(row.outputs.dig_tick.into())));
     add("swing_true_deg", Box::new(|row, _| row.swing.map(|swing| swing.angle().to_degrees()).into()));
@@ -112,16 +112,6 @@ fn columns() -> Vec<(String, Value)> {
         }),
     );
     all
-}
-
-fn state(row: &Row) -> &'static str {
-    use firmware::State;
-    match row.outputs.state {
-        State::Locked => "locked",
-        State::Ready => "ready",
-        State::Running => "running",
-        State::Fault => "fault",
-    }
 }
 
 /// Writes `log.csv`: a row a tick.

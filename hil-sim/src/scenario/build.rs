@@ -1,6 +1,7 @@
 //! From a checked file to what a run needs: the controller's parameters and the plant.
 
 use firmware::Parameters;
+use firmware::diagnosis::DiagnosisParameters;
 use firmware::dig::DigParameters;
 use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::{
@@ -135,6 +136,16 @@ fn task(file: &mut ScenarioFile) -> Result<Task, String> {
     }
 }
 
+/// What is healthy of these valves, and of sensors with the plant's noise.
+fn diagnosis(valves: &[[ValveDirection; 2]; 4], plant: &super::plant::Plant) -> DiagnosisParameters {
+    let mut diagnosis =
+        DiagnosisParameters::of_full_speeds(valves.map(|spool| spool.map(|direction| direction.full_speed)));
+    for actuator in &mut diagnosis.actuators {
+        *actuator = actuator.with_noise(plant.sensor_noise_m as f32);
+    }
+    diagnosis
+}
+
 /// The start's lengths lie within the strokes.
 fn start_ranges(start: &Start, g: &PinGeometry) -> Result<(), String> {
     let range = |stroke: Stroke| [stroke.min_m, stroke.max_m];
@@ -198,6 +209,7 @@ pub(super) fn scenario(mut file: ScenarioFile, machine: MachineFile) -> Result<S
         coils: coils(&valves, &coil, p.coil_inductance_h as f32, hydraulic.as_ref()),
         supply: Supply { full_scale_v: SUPPLY_FULL_SCALE_V, min_v, max_v },
         sensor_supply: SENSOR_SUPPLY,
+        diagnosis: diagnosis(&valves, p),
         motion: MotionParameters {
             preview_s: m.preview_s as f32,
             gain_per_s: m.gain_per_s as f32,

@@ -27,6 +27,7 @@ use kinematics_core::{Cylinders, Joints, Machine, PinGeometry, PlaneTip, Pose, P
 use stm32f4::stm32f405::Peripherals;
 
 use crate::coils::coils;
+use crate::diagnosis::diagnosis;
 use crate::emulated::link::Link;
 use crate::emulated::stopwatch::Stopwatch;
 use crate::emulated::{fail, succeed};
@@ -327,6 +328,7 @@ fn main() -> ! {
     row(&mut out, s, "avoid_step_2", four, |joints| avoid_step_2(&avoid, joints, &aim, &balls));
     fence(&mut out, s, m, along);
     coils(&mut out, s);
+    diagnosis(&mut out, s);
     angles(&mut out, s);
     bits(&mut out);
     succeed()

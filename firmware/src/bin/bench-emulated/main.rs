@@ -6,6 +6,8 @@ mod bench;
 #[cfg(target_os = "none")]
 mod coils;
 #[cfg(target_os = "none")]
+mod diagnosis;
+#[cfg(target_os = "none")]
 #[path = "../../emulated/mod.rs"]
 mod emulated;
 

@@ -7,9 +7,11 @@ mod app {
     use crate::{log, safe_state, target};
     use cortex_m::singleton;
     use firmware::board::Controller;
+    use firmware::board::start_up::{memory_holds, quiet_code, try_outputs};
     use firmware::can::address::{Addresses, Name};
     use firmware::store::Store;
-    use firmware::{Followers, Parameters, TICKS_PER_S};
+    use firmware::supervisor::Check;
+    use firmware::{Followers, Parameters, SelfTest, TICKS_PER_S};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -19,6 +21,8 @@ mod app {
 
     /// The bucket on the machine at power-up.
     const BUCKET: usize = 0;
+
+    const CYCLES_PER_MS: u32 = 168_000;
 
     #[shared]
     struct Shared {}
@@ -30,7 +34,7 @@ mod app {
         timer: CounterHz<TIM2>,
     }
 
-    #[init(local = [followers: Followers = Followers::new()])]
+    #[init(local = [followers: Followers = Followers::new(), block: [u32; 1024] = [0; 1024]])]
     fn init(mut cx: init::Context) -> (Shared, Local) {
         target::stack_guard::arm(&mut cx.core.MPU);
         let mut rcc = pins::clocks(cx.device.RCC);
@@ -40,13 +44,23 @@ mod app {
             (cx.device.TIM3, cx.device.TIM4),
             &mut rcc,
         );
-        let controller = controller(&parameters(ParameterFlash::new(cx.device.FLASH)), cx.local.followers);
+        let parameters = parameters(ParameterFlash::new(cx.device.FLASH));
+        let (controller, quiet_code) = (controller(&parameters, cx.local.followers), quiet_code(&parameters.coils));
         let chips = Chips { spi: cx.device.SPI1, dma: cx.device.DMA2, can: cx.device.CAN1, watchdog: cx.device.IWDG };
-        let board = match pins::start(chips, gpio, outputs, &mut rcc) {
+        let mut board = match pins::start(chips, gpio, outputs, &mut rcc) {
             Ok(board) => board,
             Err(StartError::Twice) => safe_state::halt(&|| defmt::error!("started twice")),
             Err(StartError::Adc(chip)) => safe_state::halt(&|| defmt::error!("converter {} does not start", chip)),
         };
+        let [drivers, cut_off] = try_outputs(&mut board, quiet_code, || cortex_m::asm::delay(CYCLES_PER_MS));
+        controller.self_tested(&SelfTest {
+            // Neither gets here with a wrong CRC or a converter that cannot be set up.
+            parameters: Check::Passed,
+            converters: Check::Passed,
+            memory: memory_holds(cx.local.block),
+            drivers,
+            cut_off,
+        });
         let mut timer = cx.device.TIM2.counter_hz(&mut rcc);
         if timer.start(TICKS_PER_S.Hz()).is_err() {
             safe_state::halt(&|| defmt::error!("no such tick rate"));

@@ -4,7 +4,7 @@ use crate::can::message::{Header, Message, Rate, Sender};
 use crate::can::protect::{COUNTER, CRC};
 use crate::can::receive::Validity;
 use crate::can::signal::{Scale, Signal};
-use crate::fault::Fault;
+use crate::fault::{Fault, State};
 
 const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'static str) -> Header {
     let [ms, phase_ms] = every;
@@ -13,7 +13,19 @@ const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'stati
 }
 
 /// The supervisor's states by their codes.
-pub const STATES: [(u32, &str); 4] = [(0, "locked"), (1, "ready"), (2, "running"), (3, "fault")];
+pub const STATES: [(u32, &str); State::ALL.len()] = states();
+
+const fn states() -> [(u32, &'static str); State::ALL.len()] {
+    let mut named = [(0, ""); State::ALL.len()];
+    let mut i = 0;
+    while i < named.len() {
+        let state = State::ALL[i];
+        named[i] = (state.code() as u32, state.name());
+        i += 1;
+    }
+    named
+}
+
 const CUT_OFF: [(u32, &str); 2] = [(0, "open"), (1, "closed")];
 const POSE: [(u32, &str); 2] = [(0, "invalid"), (1, "valid")];
 

@@ -1,0 +1,162 @@
+//! One actuator: its code every tick, its motion every round.
+
+use super::envelope::{Envelope, Model};
+use super::parameters::ActuatorLimits;
+use super::stuck::{Free, Sides, Stuck, StuckLimits};
+use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
+use crate::TICK_S;
+
+/// Share of the measured speed that a round keeps: a time constant of five rounds.
+const KEPT: f32 = 0.8;
+/// From the kept sum of changes to a speed.
+const PER_S: f32 = (1.0 - KEPT) / (KEPT * ROUND_S);
+/// The noise's standard deviation must be as many codes wide for its loss to be seen.
+const NOISE_CODES: f32 = 3.0;
+
+/// What is wrong, most urgent first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wrong {
+    Jump,
+    Stuck,
+    Against,
+    Uncommanded,
+}
+
+/// An actuator.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Channel {
+    code: u16,
+    /// Changes within so many codes either way are no jump.
+    most: u16,
+    /// Rounds until a jump is forgotten.
+    jumped: u8,
+    pub(super) wrong: Option<Wrong>,
+    /// The code at the last measurement, and at the one before.
+    round_code: u16,
+    round_before: u16,
+    /// A code's worth of travel.
+    unit: f32,
+    /// Changes, the older the less.
+    changes: f32,
+    speed_margin: f32,
+    /// The faster full speed, and one over it.
+    full: f32,
+    per_full: f32,
+    envelope: Envelope,
+    /// Speed lies in the envelope.
+    inside: bool,
+    /// It is the opposite of the command.
+    against: bool,
+    /// Rounds outside the envelope.
+    outside: u8,
+    limits: StuckLimits,
+    stuck: Stuck,
+    pub(super) moving: bool,
+}
+
+impl Channel {
+    pub(super) fn new(limits: &ActuatorLimits, unit: f32) -> Self {
+        let [out, back] = limits.full_speed;
+        let (slower, faster) = if out < back { (out, back) } else { (back, out) };
+        // The cast saturates, far below half of all codes for any sensible sensor.
+        let most = core::cmp::min(((2.0 * faster * TICK_S + limits.jump) / unit) as u16, 32_000);
+        Self {
+            code: 0,
+            most,
+            jumped: 0,
+            wrong: None,
+            round_code: 0,
+            round_before: 0,
+            unit,
+            changes: 0.0,
+            speed_margin: limits.speed_margin,
+            full: faster,
+            per_full: 1.0 / faster,
+            envelope: Envelope::default(),
+            inside: true,
+            against: false,
+            outside: 0,
+            limits: StuckLimits {
+                travel: limits.stuck_travel,
+                noisy: limits.noise >= NOISE_CODES * unit,
+                creep: 0.1 * slower,
+            },
+            stuck: Stuck::default(),
+            moving: false,
+        }
+    }
+
+    /// The first code ever.
+    pub(super) fn begin(&mut self, code: u16) {
+        (self.code, self.round_code, self.round_before) = (code, code, code);
+    }
+
+    /// Every tick.
+    #[inline(always)]
+    pub(super) fn sample(&mut self, code: u16) {
+        // The difference wraps as a swing's code does.
+        let change = code.wrapping_sub(self.code);
+        self.code = code;
+        if change.wrapping_add(self.most) > 2 * self.most {
+            // Whatever moved since the last round is lost in it.
+            self.round_code = code;
+            (self.jumped, self.wrong) = (JUMP_ROUNDS, Some(Wrong::Jump));
+        }
+    }
+
+    /// Speed as measured, m/s or rad/s.
+    #[inline(always)]
+    pub(super) fn speed(&self) -> f32 {
+        self.changes * PER_S
+    }
+
+    /// How fast it may be moving, as a share of its full speed.
+    #[inline(always)]
+    pub(super) fn activity(&self) -> f32 {
+        self.envelope.fastest() * self.per_full
+    }
+
+    /// First in a round: speed and the model. `others` is the largest activity of the other actuators, whose masses shake this one.
+    #[inline(always)]
+    pub(super) fn measure(&mut self, model: &Model, command: f32, others: f32, turned: bool) {
+        let change = self.code.wrapping_sub(self.round_code).cast_signed();
+        (self.round_before, self.round_code) = (self.round_code, self.code);
+        self.changes = (self.changes + f32::from(change) * self.unit) * KEPT;
+        let speed = self.speed();
+        self.moving = speed > self.speed_margin || speed < -self.speed_margin;
+        let (low, high) = self.envelope.follow(model, command, turned);
+        let margin = self.speed_margin + model.coupling * others * self.full;
+        self.inside = speed <= high + margin && speed >= low - margin;
+        self.against = command * speed < 0.0;
+    }
+
+    /// Second in a round: what is wrong.
+    #[inline(always)]
+    pub(super) fn look(&mut self, free: Free, sides: Sides<'_>) {
+        let codes = [self.round_before, self.round_code];
+        let stuck = self.stuck.follow(&self.limits, self.envelope.sure(), codes, self.unit, (free, sides));
+        if self.inside && !stuck && self.wrong.is_none() {
+            self.outside = 0;
+        } else {
+            self.name(stuck);
+        }
+    }
+
+    /// Names what is wrong, or forgets it. Not inlined: it is for faults.
+    #[inline(never)]
+    fn name(&mut self, stuck: bool) {
+        self.outside = if self.inside { 0 } else { self.outside.saturating_add(1) };
+        self.jumped = self.jumped.saturating_sub(1);
+        self.wrong = if self.jumped > 0 {
+            Some(Wrong::Jump)
+        } else if stuck {
+            Some(Wrong::Stuck)
+        } else if self.outside < OUTSIDE_ROUNDS {
+            None
+        } else if self.against {
+            Some(Wrong::Against)
+        } else {
+            Some(Wrong::Uncommanded)
+        };
+    }
+}

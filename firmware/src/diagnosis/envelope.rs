@@ -1,0 +1,137 @@
+//! The delay model: what speeds a healthy actuator may have after its commands so far, and which it must have.
+//!
+//! Dead time lies between none and the longest, so speed may be anything between the lowest and the highest command of that time. After
+//! the highest it may fall off in a straight line over the run-on, and a released speed may ring back by its share. The speed it must
+//! have is the command nearest to zero of that time, less what may still run on the other way, behind the slowest spool.
+
+use super::ROUND_S;
+use super::parameters::DiagnosisParameters;
+
+/// What all actuators calculate with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Model {
+    /// Share of a speed that the run-on takes off in a round.
+    run_on_share: f32,
+    /// Share of the way to its command that the slowest spool goes in a round.
+    lag_share: f32,
+    over: f32,
+    ring: f32,
+    /// By how much less a speed bounces back than rings back.
+    calmer: f32,
+    /// Share of its full speed that the others at theirs shake an actuator with.
+    pub(super) coupling: f32,
+    /// Rounds of a span: three cover the longest dead time.
+    pub(super) span_rounds: u8,
+}
+
+impl Model {
+    /// Of valid parameters.
+    pub(super) fn new(p: &DiagnosisParameters) -> Self {
+        let share = |time_s: f32| if time_s > ROUND_S { ROUND_S / time_s } else { 1.0 };
+        Self {
+            run_on_share: share(p.run_on_s),
+            lag_share: share(p.spool_lag_s),
+            over: 1.0 + p.overshoot,
+            ring: p.ring,
+            calmer: p.ring - p.rebound,
+            coupling: p.coupling,
+            // The cast saturates.
+            span_rounds: (p.latest_start_s / (3.0 * ROUND_S) + 0.999) as u8,
+        }
+    }
+}
+
+/// A speed that may still be there: at once up with its command, down in a straight line.
+#[derive(Clone, Copy, Debug, Default)]
+struct RunOn {
+    level: f32,
+    slope: f32,
+}
+
+impl RunOn {
+    #[inline(always)]
+    fn follow(&mut self, command: f32, share: f32) {
+        let fallen = self.level - self.slope;
+        if command > fallen {
+            *self = Self { level: command, slope: command * share };
+        } else {
+            self.level = if fallen > 0.0 { fallen } else { 0.0 };
+        }
+    }
+}
+
+/// Lowest and highest command of a stretch of time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Span {
+    low: f32,
+    high: f32,
+}
+
+impl Span {
+    /// Of both.
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self {
+            low: if other.low < self.low { other.low } else { self.low },
+            high: if other.high > self.high { other.high } else { self.high },
+        }
+    }
+}
+
+/// One actuator's model.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Envelope {
+    /// The span under way, and the two before it: the last first.
+    now: Span,
+    past: [Span; 2],
+    /// The three before it together.
+    before: Span,
+    out: RunOn,
+    back: RunOn,
+    sure: f32,
+}
+
+impl Envelope {
+    /// The speed there must be, if nothing holds the actuator back.
+    pub(super) fn sure(&self) -> f32 {
+        self.sure
+    }
+
+    /// The fastest it may run on.
+    #[inline(always)]
+    pub(super) fn fastest(&self) -> f32 {
+        let (out, back) = (self.out.level, self.back.level);
+        if out > back { out } else { back }
+    }
+
+    /// One round under this command, `turned` at the end of every span: lowest and highest speed.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> (f32, f32) {
+        let command_now = Span { low: command, high: command };
+        self.now = self.now.and(command_now);
+        let Span { low, high } = self.now.and(self.before);
+        if turned {
+            let [last, one_before] = self.past;
+            self.past = [self.now, last];
+            self.before = self.now.and(last).and(one_before);
+            self.now = command_now;
+        }
+        self.out.follow(high, model.run_on_share);
+        self.back.follow(-low, model.run_on_share);
+        let (out, back) = (self.out.level, self.back.level);
+        // What may still run on the other way is owed.
+        let must = if low > back {
+            low - back
+        } else if high < -out {
+            high + out
+        } else {
+            // Released or reversed: the past promises nothing.
+            self.sure = 0.0;
+            0.0
+        };
+        self.sure += (must - self.sure) * model.lag_share;
+        let bounce = model.calmer * command;
+        let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
+        (-(model.over * back + model.ring * out - bounce_out), model.over * out + model.ring * back - bounce_back)
+    }
+}

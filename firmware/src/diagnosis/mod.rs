@@ -1,0 +1,154 @@
+//! Between sensing and motion: whether each actuator's sensor can be believed, and whether the actuator does what it was told.
+//!
+//! Every tick each code is held against the last: a change that no motion explains is a jump. In a *round* of eight ticks one actuator after
+//! the other is looked at closely, two ticks each: first its measured speed against the [delay model](DiagnosisParameters), then
+//! whether its sensor follows motion that must have happened. Each actuator is judged alone; what is good of one says nothing of another.
+
+mod channel;
+mod envelope;
+mod parameters;
+mod stuck;
+
+use kinematics_core::Cylinder;
+
+use crate::TICK_S;
+use crate::fault::Fault;
+use crate::io::Speeds;
+use channel::{Channel, Wrong};
+use envelope::Model;
+use stuck::Free;
+
+pub use parameters::{ActuatorLimits, DiagnosisParameters};
+
+/// Ticks of a round: two for each actuator.
+const ROUND_TICKS: u8 = 8;
+/// The same, s.
+const ROUND_S: f32 = 8.0 * TICK_S;
+/// So many rounds outside the envelope, or standing though free, are a fault: 56 ms.
+const OUTSIDE_ROUNDS: u8 = 7;
+/// So many rounds without any change of a noisy code are no chance: 96 ms.
+const QUIET_ROUNDS: u8 = 12;
+/// A jump stays a fault for so many rounds after the last: 104 ms.
+const JUMP_ROUNDS: u8 = 13;
+
+const ACTUATORS: [Cylinder; 4] = [Cylinder::Swing, Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket];
+
+/// Cylinder pressures, Pa, as far as they are valid: boom, arm, bucket, each head then rod.
+pub type Pressures = [[Option<f32>; 2]; 3];
+
+/// No pressure is known.
+pub const NO_PRESSURES: Pressures = [[None; 2]; 3];
+
+/// The diagnosis stage.
+#[derive(Clone, Copy, Debug)]
+pub struct Diagnosis {
+    channels: [Channel; 4],
+    model: Model,
+    /// What the valves were last told.
+    sent: [f32; 4],
+    free: Free,
+    /// Ticks of this round.
+    tick: u8,
+    /// Rounds until the span of commands under way ends.
+    until_turn: u8,
+    /// Codes have come.
+    begun: bool,
+}
+
+impl Diagnosis {
+    /// Of valid parameters, and what a code of each sensor is worth (swing, boom, arm, bucket), m or rad.
+    pub fn new(p: &DiagnosisParameters, units: [f32; 4]) -> Self {
+        let mut units = units.into_iter();
+        let model = Model::new(p);
+        Self {
+            // As many units as actuators.
+            channels: p.actuators.map(|limits| Channel::new(&limits, units.next().unwrap_or(1.0))),
+            model,
+            sent: [0.0; 4],
+            free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },
+            tick: 0,
+            until_turn: model.span_rounds,
+            begun: false,
+        }
+    }
+
+    /// One tick: the sensors' codes and the pressures.
+    pub fn judge(&mut self, codes: &[u16; 4], pressures: &Pressures) {
+        if !self.begun {
+            self.begun = true;
+            self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.begin(*code));
+        }
+        for (channel, code) in self.channels.iter_mut().zip(codes) {
+            channel.sample(*code);
+        }
+        let number = usize::from(self.tick / 2);
+        let others = if self.tick.is_multiple_of(2) { self.others(number) } else { 0.0 };
+        let turned = self.until_turn == 0;
+        if let (Some(channel), Some(command)) = (self.channels.get_mut(number), self.sent.get(number)) {
+            if self.tick.is_multiple_of(2) {
+                channel.measure(&self.model, *command, others, turned);
+            } else {
+                // The swing, number 0, has none.
+                channel.look(self.free, number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder)));
+            }
+        }
+        self.tick += 1;
+        if self.tick == ROUND_TICKS {
+            self.tick = 0;
+            self.until_turn = if turned { self.model.span_rounds } else { self.until_turn }.saturating_sub(1);
+        }
+    }
+
+    /// The largest activity of all actuators but this one.
+    #[inline(always)]
+    fn others(&self, number: usize) -> f32 {
+        let mut largest = 0.0;
+        for (index, channel) in self.channels.iter().enumerate() {
+            let activity = channel.activity();
+            if index != number && activity > largest {
+                largest = activity;
+            }
+        }
+        largest
+    }
+
+    /// What went to the valves in this tick.
+    pub fn sent(&mut self, speeds: &Speeds) {
+        self.sent = speeds.to_array();
+    }
+
+    /// What went to the valves in the tick before.
+    pub fn last_sent(&self) -> Speeds {
+        Speeds::from_array(self.sent)
+    }
+
+    /// The most urgent fault, of the first actuator that has one.
+    #[inline(always)]
+    pub fn fault(&self) -> Option<Fault> {
+        if self.channels.iter().all(|channel| channel.wrong.is_none()) { None } else { self.named() }
+    }
+
+    /// Speeds as measured: swing, boom, arm, bucket, m/s or rad/s.
+    pub fn speeds(&self) -> Speeds {
+        Speeds::from_array(self.channels.each_ref().map(Channel::speed))
+    }
+
+    /// Some actuator moves.
+    pub fn moving(&self) -> bool {
+        self.channels.iter().any(|channel| channel.moving)
+    }
+
+    #[inline(never)]
+    fn named(&self) -> Option<Fault> {
+        let faults = self.channels.iter().zip(ACTUATORS).filter_map(|(channel, cylinder)| {
+            let fault = match channel.wrong? {
+                Wrong::Jump => Fault::Jump(cylinder),
+                Wrong::Stuck => Fault::Stuck(cylinder),
+                Wrong::Against => Fault::Against(cylinder),
+                Wrong::Uncommanded => Fault::Uncommanded(cylinder),
+            };
+            Some((channel.wrong, fault))
+        });
+        faults.min_by_key(|(wrong, _)| wrong.map(|wrong| wrong as u8)).map(|(_, fault)| fault)
+    }
+}
