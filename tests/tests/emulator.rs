@@ -96,6 +96,21 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
 
 #[test]
 #[ignore = "needs the emulator: run cargo xtask test"]
+fn a_tick_under_the_coordinated_law_stays_within_four_thousand_instructions() {
+    let image = controller();
+    for name in ["level-zx200", "grade-zx200", "tip-velocity-zx200"] {
+        let mut scenario = scenario(name);
+        scenario.duration_s = 3.0;
+        let (log, figures) = on_emulator(&scenario, 1, &image);
+        println!("{name}: {figures:?}");
+        assert_eq!(log.output_hash, on_host(&scenario, 1).output_hash, "{name}");
+        assert!(log.faults.is_empty(), "{name}: {:?}", log.faults);
+        assert!(figures.instructions_per_tick.max <= 4_000, "{name}: {figures:?}");
+    }
+}
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
 fn the_maps_stay_within_their_instruction_budgets() {
     let image = Image::build("bench-emulated").unwrap_or_else(|error| panic!("{error}"));
     let printed = Emulator::start(&image).and_then(Emulator::printed).unwrap_or_else(|error| panic!("{error}"));
