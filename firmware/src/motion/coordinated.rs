@@ -47,6 +47,7 @@ impl Coordination {
     }
 
     /// One factor for all speeds (swing rad/s): within full speeds, pump flow, and what stops before the ends of the strokes.
+    #[inline(always)]
     pub(super) fn factor(&self, [swing, boom, arm, bucket]: [f32; 4], lever: f32, ahead: &Cylinders<f32>) -> f32 {
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, self.share);
@@ -79,6 +80,7 @@ impl Coordination {
     }
 
     /// Closes the loop: speeds that bring the actuators to where `ahead` was a preview ago.
+    #[inline(always)]
     pub(super) fn close(
         &mut self,
         under_way: &mut UnderWay,

@@ -69,6 +69,7 @@ impl GradeFollower {
         Vec2::new(roll.cos * pitch.cos, 0.0 - up).direction().unwrap_or(Rotor::IDENTITY)
     }
 
+    #[inline(never)]
     fn begin(
         &self,
         machine: &Machine<f32>,
@@ -89,7 +90,7 @@ impl GradeFollower {
     }
 
     /// One tick; `arm_mps` is the speed the lever asks of the arm's cylinder. The chassis' slope counts when grading begins.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,

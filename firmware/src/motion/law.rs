@@ -127,6 +127,7 @@ impl Law {
 
     /// Takes this tick's place ahead, relative to the start, and tells that of a preview ago: the reference of now. Without `turned`
     /// the swing stays as it is.
+    #[inline(always)]
     pub(super) fn reference(
         &mut self,
         under_way: &mut UnderWay,

@@ -52,6 +52,7 @@ impl TipFollower {
         self.led = None;
     }
 
+    #[inline(never)]
     fn begin(&self, machine: &Machine<f32>, shared: &mut Coordination, lengths: &Cylinders<f32>) -> Result<Led, Fault> {
         let start = shared.begin(lengths, self.preview_s);
         let tip = machine.cylinders_to_tip(&start, Rotor::IDENTITY).map_err(|_| Fault::Geometry)?.plane;
@@ -67,7 +68,7 @@ impl TipFollower {
     }
 
     /// One tick towards the wanted velocity.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
