@@ -101,8 +101,11 @@ fn table(report: &Report) -> String {
             row.name, row.detected, row.undetected
         );
     }
-    out.push_str("not promised to be seen:\n");
-    for row in report.faults.iter().filter(|row| row.bound_ms.is_none()) {
+    for (named, situation) in &report.false_trips_named {
+        let _ = writeln!(out, "  false trip: {named}, {situation:?}");
+    }
+    out.push_str("not promised to be seen, or only so late:\n");
+    for row in report.faults.iter().filter(|row| row.reason.is_some()) {
         let _ = writeln!(out, "  {}: {}", row.name, row.reason.unwrap_or_default());
     }
     out

@@ -80,7 +80,7 @@ pub struct Kind {
     pub cause: Cause,
     /// From the first tick it can be seen to the tick that names it, ms; `None` where nothing promises that it is seen.
     pub bound_ms: Option<f64>,
-    /// Why there is no bound.
+    /// Why there is no bound, or what it is made of.
     pub reason: Option<&'static str>,
 }
 
@@ -120,7 +120,11 @@ pub const KINDS: [Kind; 30] = [
     row("coil_open", Cause::Coil(Broken::Open), 50.0),
     row("coil_short_to_supply", Cause::Coil(Broken::ShortToSupply), 20.0),
     row("coil_short_to_ground", Cause::Coil(Broken::ShortToGround), 20.0),
-    row("coil_shorted_turns", Cause::Coil(Broken::Resistance(0.3)), 20.0),
+    unseen(
+        "coil_shorted_turns",
+        Cause::Coil(Broken::Resistance(0.3)),
+        "the current loop holds the current all the same; it is seen only where the current is more than a cold winding could draw",
+    ),
     unseen(
         "coil_corroded_plug",
         Cause::Coil(Broken::Resistance(2.0)),
@@ -141,9 +145,24 @@ pub const KINDS: [Kind; 30] = [
     row("sensor_converter_dead", Cause::Converter(0, Break::StuckHigh), 20.0),
     row("coil_converter_dead", Cause::Converter(1, Break::StuckLow), 20.0),
     row("tick_overrun", Cause::Overrun, 5.0),
-    row("spool_stuck", Cause::Spool(Defect::Stuck), 100.0),
-    row("spool_leaking", Cause::Spool(Defect::Leaking(0.05)), 100.0),
-    row("pressure_lost", Cause::NoPressure, 100.0),
+    Kind {
+        name: "spool_stuck",
+        cause: Cause::Spool(Defect::Stuck),
+        bound_ms: Some(2350.0),
+        reason: Some(
+            "100 ms after the speed leaves what a healthy machine may do, which may start 250 ms late and run on for 2 s after its release",
+        ),
+    },
+    unseen(
+        "spool_leaking",
+        Cause::Spool(Defect::Leaking(0.05)),
+        "50 mm/s hide in the speeds a healthy machine may have while it moves and is shaken; at rest it is seen",
+    ),
+    unseen(
+        "pressure_lost",
+        Cause::NoPressure,
+        "a machine that stands against its command looks stalled, unless the pressure on the driven side says otherwise",
+    ),
 ];
 
 /// Frames that the operator's panel takes up: the first of a tick.

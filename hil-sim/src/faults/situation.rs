@@ -11,7 +11,7 @@ const STROKE_TIMES_S: [f64; 3] = [4.3, 3.4, 1.75];
 /// The levers move from here on, s.
 pub(super) const BEGIN_S: f64 = 0.4;
 /// The end, s.
-pub(super) const DURATION_S: f64 = 4.0;
+pub(super) const DURATION_S: f64 = 5.0;
 
 /// What the machine is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -41,8 +41,13 @@ pub(super) struct Mover {
     pub(super) side: usize,
 }
 
-/// The machine's scenario in a situation.
-pub(super) fn scenario(machine: &MachineFile, situation: Situation, mover: Mover) -> Result<Scenario, String> {
+/// The machine's scenario in a situation; the levers are in neutral from `released_s` on.
+pub(super) fn scenario(
+    machine: &MachineFile,
+    situation: Situation,
+    mover: Mover,
+    released_s: f64,
+) -> Result<Scenario, String> {
     let g = &machine.geometry;
     let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
     let speed = |i: usize| (strokes[i].max_m - strokes[i].min_m) / STROKE_TIMES_S[i];
@@ -82,7 +87,10 @@ pub(super) fn scenario(machine: &MachineFile, situation: Situation, mover: Mover
     };
     let start = Start { swing_deg: 0.0, boom_m: place(0), arm_m: place(1), bucket_m: place(2) };
     let mut scenario = Scenario::of_machine(&text, machine.clone(), start)?;
-    scenario.task = Task::Levers { start, moves: moves(situation, mover) };
+    let mut moves = moves(situation, mover);
+    moves.retain(|lever| lever.at_s < released_s);
+    moves.iter_mut().for_each(|lever| lever.until_s = lever.until_s.min(released_s));
+    scenario.task = Task::Levers { start, moves };
     Ok(scenario)
 }
 

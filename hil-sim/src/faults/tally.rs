@@ -1,8 +1,11 @@
 //! The campaign's table.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::kind::{KINDS, Kind};
+use super::situation::Situation;
 use super::trial::Found;
 
 /// Median, 99th percentile, largest.
@@ -48,7 +51,9 @@ pub struct Row {
     pub bound_ms: Option<f64>,
     /// Whether every run kept it.
     pub bound_held: Option<bool>,
-    /// Why nothing is promised.
+    /// What it was named, how often.
+    pub named: BTreeMap<&'static str, usize>,
+    /// Why nothing is promised, or what the bound is made of.
     pub reason: Option<&'static str>,
 }
 
@@ -65,6 +70,8 @@ pub struct Report {
     pub healthy: usize,
     /// Runs in which a fault was named though nothing was wrong yet.
     pub false_trips: usize,
+    /// What they named, and in which situation.
+    pub false_trips_named: Vec<(&'static str, Situation)>,
     /// A row a fault.
     pub faults: Vec<Row>,
 }
@@ -78,6 +85,11 @@ impl Report {
             runs: found.len(),
             healthy: found.iter().filter(|found| found.kind.is_none()).count(),
             false_trips: found.iter().filter(|found| found.false_trip).count(),
+            false_trips_named: found
+                .iter()
+                .filter(|found| found.false_trip)
+                .filter_map(|found| Some((found.named?, found.situation)))
+                .collect(),
             faults: faults
                 .map(|(index, kind)| {
                     let of_kind = |found: &&Found| found.kind == Some(index) && !found.false_trip;
@@ -110,6 +122,10 @@ fn row(kind: &Kind, found: &[Found]) -> Row {
         tip_travel_mm: ms(found.iter().filter_map(|found| found.travel_m).collect()),
         bound_ms: kind.bound_ms,
         bound_held: kind.bound_ms.map(held),
+        named: found.iter().filter_map(|found| found.named).fold(BTreeMap::new(), |mut named, name| {
+            *named.entry(name).or_default() += 1;
+            named
+        }),
         reason: kind.reason,
     }
 }

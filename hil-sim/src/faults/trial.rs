@@ -4,10 +4,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::kind::{Cause, KINDS};
-use super::situation::{self, BEGIN_S, Mover, Situation};
+use super::situation::{self, BEGIN_S, DURATION_S, Mover, Situation};
 use super::spoil::Spoiler;
 use crate::machine_file::MachineFile;
 use crate::place::Host;
+use crate::plant::Defect;
 use crate::run::{Log, Run};
 use crate::scenario::Scenario;
 
@@ -25,6 +26,10 @@ pub(super) struct Found {
     pub(super) detected_s: Option<f64>,
     /// The tip's way from where the fault could be seen to where it stands at the end, m.
     pub(super) travel_m: Option<f64>,
+    /// What was named.
+    pub(super) named: Option<&'static str>,
+    /// What the machine was doing.
+    pub(super) situation: Situation,
     /// A fault was named before anything was wrong.
     pub(super) false_trip: bool,
 }
@@ -41,7 +46,12 @@ pub(super) fn run(machine: &MachineFile, seed: u64, index: u64) -> Result<Found,
     let mover = Mover { spool: 1 + below(3) as usize, side: below(2) as usize };
     // Long enough after the start for the motion to be steady, long enough before the end for standstill.
     let from_s = BEGIN_S + 0.9 + f64::from(below(400)) * 0.001;
-    let scenario = situation::scenario(machine, situation, mover)?;
+    // A spool that sticks open shows when it should close.
+    let released_s = match kind.map(|kind| KINDS[kind].cause) {
+        Some(Cause::Spool(Defect::Stuck)) => from_s + 0.3,
+        _ => DURATION_S,
+    };
+    let scenario = situation::scenario(machine, situation, mover, released_s)?;
     let Some(kind) = kind else {
         let log = complete(&scenario, case, None)?;
         return Ok(Found {
@@ -49,6 +59,8 @@ pub(super) fn run(machine: &MachineFile, seed: u64, index: u64) -> Result<Found,
             wait_s: None,
             detected_s: None,
             travel_m: None,
+            named: log.faults.first().map(|fault| fault.fault.name()),
+            situation,
             false_trip: !log.faults.is_empty(),
         });
     };
@@ -71,6 +83,8 @@ pub(super) fn run(machine: &MachineFile, seed: u64, index: u64) -> Result<Found,
         wait_s: observable_s.map(|at_s| at_s - from_s),
         detected_s: named.map(|at_s| (at_s - observable_s.unwrap_or(at_s)).max(0.0)),
         travel_m,
+        named: log.faults.first().map(|fault| fault.fault.name()),
+        situation,
         false_trip,
     })
 }

@@ -51,7 +51,7 @@ pub struct Plant {
 #[derive(Clone, Debug)]
 enum Machine {
     /// Actuators at set speeds.
-    Speeds([Actuator; 4]),
+    Speeds(Box<[Actuator; 4]>),
     /// Oil and masses.
     Hydraulic(Box<HydraulicPlant>),
 }
@@ -62,7 +62,7 @@ impl Plant {
         let mut start = start.into_iter();
         // As many positions as models.
         let actuators = models.map(|model| Actuator::new(model, start.next().unwrap_or_default(), STEP_S));
-        Self::of(Machine::Speeds(actuators), coil)
+        Self::of(Machine::Speeds(Box::new(actuators)), coil)
     }
 
     /// A hydraulic machine at rest at these positions.
@@ -133,7 +133,7 @@ impl Plant {
     /// True positions of swing, boom, arm, bucket: m, a swing motor rad.
     pub fn positions(&self) -> [f64; 4] {
         match &self.machine {
-            Machine::Speeds(actuators) => actuators.each_ref().map(Actuator::position),
+            Machine::Speeds(actuators) => actuators.as_ref().each_ref().map(Actuator::position),
             Machine::Hydraulic(plant) => plant.positions(),
         }
     }
@@ -141,7 +141,7 @@ impl Plant {
     /// Names of the cylinders a travel stop holds back.
     pub fn against_stops(&self) -> impl Iterator<Item = &'static str> {
         let held = match &self.machine {
-            Machine::Speeds(actuators) => actuators.each_ref().map(Actuator::against_stop),
+            Machine::Speeds(actuators) => actuators.as_ref().each_ref().map(Actuator::against_stop),
             Machine::Hydraulic(plant) => plant.against_stops(),
         };
         held.into_iter().zip(SPOOLS).filter(|&(held, _)| held).map(|(_, name)| name)

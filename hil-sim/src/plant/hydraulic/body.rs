@@ -173,11 +173,11 @@ impl Body {
         // To relative angles: sums over what lies further out.
         let mut matrix = matrix.relative();
         let mut right = [impulse[0] + impulse[1] + impulse[2], impulse[1] + impulse[2], impulse[2]];
-        for i in 0..3 {
+        for (i, right) in right.iter_mut().enumerate() {
             matrix.d[i] += h * loads.damping[i + 1];
             if let Some(rate) = loads.held[i] {
                 matrix.d[i] += HELD;
-                right[i] += HELD * rate;
+                *right += HELD * rate;
             }
         }
         let [boom_after, arm_after, bucket_after] = solve(&matrix, right);

@@ -4,6 +4,9 @@
 //! slope, solves the pressures' changes at once (the gallery couples the functions, so the system is an arrow), and moves the same flows out of
 //! one place and into the next. So oil is conserved to rounding, whatever the step.
 
+// Functions and sides index several arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 use super::function::{Around, Chamber, Function, FunctionFlows};
 use super::ledger::{Ledger, Observer, Path};
 use super::metering::{Flow, relief};
