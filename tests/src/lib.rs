@@ -11,6 +11,7 @@
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
 //! - [`can`]: the controller's node on a bench bus;
 //! - [`plant`]: plants of the shipped machines, levers as currents, motions timed;
+//! - [`ways`]: how far a run was from its lines;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
@@ -30,4 +31,5 @@ pub mod rates;
 pub mod rig;
 pub mod stated;
 pub mod sweep;
+pub mod ways;
 pub mod wide;

@@ -2,8 +2,11 @@
 
 use cross_tests::rig::scenario;
 use firmware::dig::DigParameters;
+use firmware::grade::GradeParameters;
+use firmware::law::LawParameters;
 use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::ReachParameters;
+use firmware::path::PathParameters;
 use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
@@ -126,5 +129,65 @@ fn the_record_fits_the_link_and_survives_its_own_bytes() {
         println!("{name}: {} bytes", bytes.len());
         assert!(bytes.len() <= firmware::simulated::link::RECORD_BYTES);
         assert_eq!(postcard::from_bytes::<Parameters>(&bytes).unwrap(), parameters);
+    }
+}
+
+fn law(p: &mut Parameters) -> &mut LawParameters {
+    p.motion.law.as_mut().expect("a law")
+}
+
+fn path(p: &mut Parameters) -> &mut PathParameters {
+    p.path.as_mut().expect("a path")
+}
+
+const SPOILT_PATH: [(&str, Spoil); 23] = [
+    ("motion.law.integral_per_s2", |p| law(p).integral_per_s2 = -1.0),
+    ("motion.law.bias_limit_mps", |p| law(p).bias_limit_mps = 0.2),
+    ("motion.law.correction_limit_mps", |p| law(p).correction_limit_mps = f32::NAN),
+    ("motion.law.rest_zone_m", |p| law(p).rest_zone_m = 0.1),
+    ("motion.law.reserve", |p| law(p).reserve = 0.6),
+    ("motion.law.acceleration", |p| law(p).acceleration[2] = 0.0),
+    ("motion.law.cushion_mps2", |p| law(p).cushion_mps2 = 0.0),
+    ("motion.law.tip_acceleration_mps2", |p| law(p).tip_acceleration_mps2 = f32::INFINITY),
+    ("motion.law.pitch_acceleration_radps2", |p| law(p).pitch_acceleration_radps2 = 0.0),
+    ("motion.law.swing_following_error_rad", |p| law(p).swing_following_error_rad = 2.0),
+    ("motion.law.areas_m2", |p| law(p).areas_m2[1][0] = 0.0),
+    ("motion.law.flow_m3ps", |p| law(p).flow_m3ps = 0.0),
+    ("path.knots", |p| path(p).knots = [None; 9]),
+    ("path.knots", |p| path(p).knots.swap(1, 5)),
+    ("path.knot.x_m", |p| path(p).knots[0].as_mut().expect("a knot").x_m = f64::NAN),
+    ("path.knot.z_m", |p| path(p).knots[0].as_mut().expect("a knot").z_m = 99.0),
+    ("path.knot.pitch_deg", |p| path(p).knots[1].as_mut().expect("a knot").pitch_deg = 999.0),
+    ("path.knot.swing_deg", |p| path(p).knots[1].as_mut().expect("a knot").swing_deg = f64::NAN),
+    ("path.speed_mps", |p| path(p).speed_mps = 0.0),
+    ("path.acceleration_mps2", |p| path(p).acceleration_mps2 = 0.0),
+    ("path.pitch_speed_deg_s", |p| path(p).pitch_speed_deg_s = f64::NAN),
+    ("path.swing_speed_deg_s", |p| path(p).swing_speed_deg_s = 0.0),
+    ("path.swing_acceleration_deg_s2", |p| path(p).swing_acceleration_deg_s2 = -1.0),
+];
+
+fn grade(p: &mut Parameters) -> &mut GradeParameters {
+    p.grade.as_mut().expect("a plane")
+}
+
+const SPOILT_GRADE: [(&str, Spoil); 5] = [
+    ("grade.point_x_m", |p| grade(p).point_x_m = f64::NAN),
+    ("grade.point_z_m", |p| grade(p).point_z_m = 60.0),
+    ("grade.slope_deg", |p| grade(p).slope_deg = 90.0),
+    ("grade.speed_mps", |p| grade(p).speed_mps = 0.0),
+    ("grade.tolerance_m", |p| grade(p).tolerance_m = 2.0),
+];
+
+#[test]
+fn every_value_of_law_path_and_plane_out_of_its_range_is_refused_by_name() {
+    let of = |name: &'static str| move |&(field, spoil): &(&'static str, Spoil)| (name, field, spoil);
+    let all = SPOILT_PATH.iter().map(of("level-zx200")).chain(SPOILT_GRADE.iter().map(of("grade-zx200")));
+    for (name, field, spoil) in all {
+        let mut parameters = scenario(name).parameters;
+        spoil(&mut parameters);
+        match Ecu::new(&parameters) {
+            Ok(_) => panic!("{field} was accepted"),
+            Err(error) => assert!(error.to_string().contains(&format!("`{field}`")), "{field}: {error}"),
+        }
     }
 }

@@ -3,7 +3,7 @@
 use kinematics_core::{Cylinders, Machine, Pose, Rotor};
 
 use super::Wanted;
-use super::law::Law;
+use super::law::{Law, UnderWay};
 use super::limits::Limits;
 use crate::fault::Fault;
 use crate::io::{Speeds, limited};
@@ -47,6 +47,7 @@ impl Coordination {
     }
 
     /// One factor for all speeds (swing rad/s): within full speeds, pump flow, and what stops before the ends of the strokes.
+    #[inline(always)]
     pub(super) fn factor(&self, [swing, boom, arm, bucket]: [f32; 4], lever: f32, ahead: &Cylinders<f32>) -> f32 {
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, self.share);
@@ -79,17 +80,18 @@ impl Coordination {
     }
 
     /// Closes the loop: speeds that bring the actuators to where `ahead` was a preview ago.
+    #[inline(always)]
     pub(super) fn close(
         &mut self,
-        ahead: &Ahead,
-        lever: f32,
+        under_way: &mut UnderWay,
+        (ahead, lever): (&Ahead, f32),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         let Ahead { start, lengths: then, feed_forward, swing } = ahead;
         let [first, turned] = swing.unwrap_or([0.0; 2]);
-        let moved = [turned, then.boom - start.boom, then.arm - start.arm, then.bucket - start.bucket];
-        let [turned, boom, arm, bucket] = self.law.reference(moved);
+        let moved = [then.boom - start.boom, then.arm - start.arm, then.bucket - start.bucket];
+        let (turned, [boom, arm, bucket]) = self.law.reference(under_way, moved, swing.map(|_| turned));
         let reference = Cylinders { boom: start.boom + boom, arm: start.arm + arm, bucket: start.bucket + bucket };
         let off = match swing {
             // The sine stands for the angle.
@@ -98,7 +100,7 @@ impl Coordination {
         };
         let errors =
             [off, reference.boom - lengths.boom, reference.arm - lengths.arm, reference.bucket - lengths.bucket];
-        let [swing, boom, arm, bucket] = self.law.speeds(*feed_forward, errors)?;
+        let [swing, boom, arm, bucket] = self.law.speeds(*feed_forward, errors, ahead.swing.is_some())?;
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, 1.0);
         Ok(Wanted { speeds: Speeds::from_array(speeds.map(|speed| speed * factor)), reference, dig_tick: 0 })

@@ -41,13 +41,13 @@ impl<const N: usize, const KEPT: usize> DelayLine<N, KEPT> {
         }
         let Some(then) = tick.checked_sub(self.ticks).filter(|then| *then > 0) else { return self.origin };
         let (number, beyond) = (then / every, then % every);
-        let kept = |number: u32| self.kept.get(number as usize % KEPT).copied().unwrap_or(self.origin);
+        let kept = |number: u32| self.kept.get(number as usize % KEPT).unwrap_or(&self.origin);
         // The first place may hold a later round's values.
-        let mut told = if number == 0 { self.origin } else { kept(number) };
+        let mut told = if number == 0 { self.origin } else { *kept(number) };
         if beyond > 0 {
             let part = beyond as f32 / every.get() as f32;
             for (told, after) in told.iter_mut().zip(kept(number + 1)) {
-                *told += (after - *told) * part;
+                *told += (*after - *told) * part;
             }
         }
         told

@@ -5,6 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor, Vec2};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
+use super::law::UnderWay;
 use super::resolve::resolve;
 use super::sum::Sum;
 use crate::TICK_S;
@@ -68,6 +69,7 @@ impl GradeFollower {
         Vec2::new(roll.cos * pitch.cos, 0.0 - up).direction().unwrap_or(Rotor::IDENTITY)
     }
 
+    #[inline(never)]
     fn begin(
         &self,
         machine: &Machine<f32>,
@@ -88,11 +90,11 @@ impl GradeFollower {
     }
 
     /// One tick; `arm_mps` is the speed the lever asks of the arm's cylinder. The chassis' slope counts when grading begins.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        shared: &mut Coordination,
+        (shared, under_way): (&mut Coordination, &mut UnderWay),
         (arm_mps, slope): (f32, Option<Slope>),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
@@ -123,7 +125,7 @@ impl GradeFollower {
         self.led = Some(led);
         let feed_forward = rates.map(|rate| rate * factor);
         let ahead = Ahead { start: led.start, lengths: ahead, feed_forward, swing: None };
-        let mut wanted = shared.close(&ahead, 1.0, pose, lengths)?;
+        let mut wanted = shared.close(under_way, (&ahead, 1.0), pose, lengths)?;
         wanted.dig_tick = led.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }

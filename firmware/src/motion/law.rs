@@ -41,6 +41,30 @@ impl Channel {
     const NEW: Self = Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST };
 }
 
+/// Values of a preview: places ahead relative to the start, and corrections given. Filled in place, in memory of its own.
+#[derive(Clone, Debug)]
+pub(super) struct UnderWay {
+    cylinders: DelayLine<6, 128>,
+    swing: DelayLine<2, 128>,
+}
+
+impl UnderWay {
+    /// Nothing.
+    pub(super) const fn new() -> Self {
+        Self { cylinders: DelayLine::new(), swing: DelayLine::new() }
+    }
+
+    pub(super) fn set_delay(&mut self, motion: &MotionParameters) {
+        let ticks = preview_ticks(motion);
+        self.cylinders.set_delay(ticks);
+        self.swing.set_delay(ticks);
+    }
+}
+
+fn preview_ticks(motion: &MotionParameters) -> u32 {
+    (motion.preview_s * TICKS_PER_S as f32 + 0.5) as u32
+}
+
 /// The law's state. Swing, boom, arm, bucket in every array.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Law {
@@ -58,16 +82,11 @@ pub(super) struct Law {
     quiet_until: u32,
     tick: u32,
     channels: [Channel; 4],
-    /// Places ahead relative to the start, and corrections given.
-    delay: DelayLine<8, 128>,
 }
 
 impl Law {
     pub(super) fn new(motion: &MotionParameters, p: &LawParameters) -> Self {
         let cylinder = motion.following_error_m;
-        let preview_ticks = (motion.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
-        let mut delay = DelayLine::new();
-        delay.set_delay(preview_ticks);
         Self {
             feed_forward: p.feed_forward,
             gain_per_s: motion.gain_per_s,
@@ -78,11 +97,10 @@ impl Law {
             smallest_speed: motion.smallest_speed_mps,
             following_errors: [p.swing_following_error_rad, cylinder, cylinder, cylinder],
             start_tolerance_m: motion.start_tolerance_m,
-            preview_ticks,
+            preview_ticks: preview_ticks(motion),
             quiet_until: 0,
             tick: 0,
             channels: [Channel::NEW; 4],
-            delay,
         }
     }
 
@@ -107,24 +125,34 @@ impl Law {
         if cylinders.into_iter().all(near) { Ok(()) } else { Err(Fault::NotAtStart) }
     }
 
-    /// Takes this tick's place ahead, relative to the start, and tells that of a preview ago: the reference of now.
-    pub(super) fn reference(&mut self, ahead: [f32; 4]) -> [f32; 4] {
+    /// Takes this tick's place ahead, relative to the start, and tells that of a preview ago: the reference of now. Without `turned`
+    /// the swing stays as it is.
+    #[inline(always)]
+    pub(super) fn reference(
+        &mut self,
+        under_way: &mut UnderWay,
+        [a, b, c]: [f32; 3],
+        turned: Option<f32>,
+    ) -> (f32, [f32; 3]) {
         self.tick = self.tick.saturating_add(1);
-        let [a, b, c, d] = ahead;
-        let [e, f, g, h] = self.channels.each_ref().map(|channel| channel.given);
-        let [a, b, c, d, given @ ..] = self.delay.pass(self.tick, [a, b, c, d, e, f, g, h]);
-        for (channel, given) in self.channels.iter_mut().zip(given) {
-            channel.given_then = given;
-        }
-        [a, b, c, d]
+        let [swing, boom, arm, bucket] = &mut self.channels;
+        let ahead = [a, b, c, boom.given, arm.given, bucket.given];
+        let [a, b, c, boom_then, arm_then, bucket_then] = under_way.cylinders.pass(self.tick, ahead);
+        (boom.given_then, arm.given_then, bucket.given_then) = (boom_then, arm_then, bucket_then);
+        let turned = turned.map_or(0.0, |turned| {
+            let [turned, given_then] = under_way.swing.pass(self.tick, [turned, swing.given]);
+            swing.given_then = given_then;
+            turned
+        });
+        (turned, [a, b, c])
     }
 
-    /// Speeds, from the feed-forward and reference − measured.
-    pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4]) -> Result<[f32; 4], Fault> {
+    /// Speeds, from the feed-forward and reference − measured; the swing stands still unless it `swings`.
+    pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4], swings: bool) -> Result<[f32; 4], Fault> {
         let quiet = self.tick <= self.quiet_until;
         let mut speeds = [0.0; 4];
-        for (index, (speed, (feed, error))) in speeds.iter_mut().zip(feed_forward.into_iter().zip(errors)).enumerate() {
-            let limit = self.following_errors.get(index).copied().unwrap_or(0.0);
+        let each = speeds.iter_mut().zip(feed_forward).zip(errors).zip(self.following_errors).enumerate();
+        for (index, (((speed, feed), error), limit)) in each.skip(if swings { 0 } else { 1 }) {
             let strays = error < -limit || error > limit;
             if strays && !quiet {
                 return Err(Fault::FollowingError);

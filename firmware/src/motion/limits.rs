@@ -42,6 +42,7 @@ impl Limits {
     }
 
     /// The factor for these speeds, at most 1; `share` of full speeds and flow may be used.
+    #[inline(always)]
     pub(super) fn factor(&self, speeds: &[f32; 4], share: f32) -> f32 {
         let mut factor = 1.0;
         for (speed, [extend, retract]) in speeds.iter().zip(self.full_speeds) {
@@ -61,6 +62,7 @@ impl Limits {
     }
 
     /// The factor that lets every cylinder still stop before the end of its stroke: speed ≤ √(2·a·d).
+    #[inline(always)]
     pub(super) fn before_ends(&self, lengths: &Cylinders<f32>, speeds: &[f32; 4]) -> f32 {
         let [_, cylinders @ ..] = speeds;
         let mut factor = 1.0;

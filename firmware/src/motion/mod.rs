@@ -33,6 +33,7 @@ use crate::io::{Request, Speeds};
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use dig::{DigFollower, Seen};
+use law::UnderWay;
 use levers::Levers;
 use modes::Modes;
 use planned::MoveFollower;
@@ -57,7 +58,7 @@ impl Wanted {
     }
 }
 
-/// What following a dig or a planned move or reaching past obstacles needs of memory: about 12 KiB, filled in place. An image gives it as a
+/// What following a dig or a planned move or reaching past obstacles needs of memory: about 16 KiB, filled in place. An image gives it as a
 /// static, so that it never lies on the stack.
 #[derive(Clone, Debug)]
 pub struct Followers {
@@ -65,14 +66,15 @@ pub struct Followers {
     planned: MoveFollower,
     /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
     reach: Option<Cell<ReachFollower>>,
-    /// What the coordinated modes share; the cell for the same reason.
+    under_way: UnderWay,
+    /// The coordinated modes; the cell for the same reason.
     modes: Option<Cell<Modes>>,
 }
 
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None, modes: None }
+        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None, under_way: UnderWay::new(), modes: None }
     }
 
     /// Plans what the parameters ask for.
@@ -89,6 +91,7 @@ impl Followers {
     fn plan_modes(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
         self.modes = None;
         if let Some(law) = &p.motion.law {
+            self.under_way.set_delay(&p.motion);
             self.modes = Some(Cell::new(Modes::new(law, p, machine)?));
         }
         Ok(())
@@ -221,8 +224,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
             Request::TipVelocity | Request::Grade | Request::Path => {
                 let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
                 let arm_mps = self.levers.speeds(intent.levers).arm;
-                let modes = self.followers.borrow_mut().modes.as_mut().ok_or(Fault::NotConfigured)?;
-                modes.get_mut().follow(machine, (intent, arm_mps, slope), speeds, pose, lengths)?
+                let Followers { under_way, modes, .. } = self.followers.borrow_mut();
+                let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
+                modes.follow(machine, (intent, arm_mps, slope), (speeds, under_way), pose, lengths)?
             }
         };
         let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));

@@ -5,7 +5,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 use super::Wanted;
 use super::coordinated::Coordination;
 use super::grade::GradeFollower;
-use super::law::Law;
+use super::law::{Law, UnderWay};
 use super::limits::Limits;
 use super::path::PathFollower;
 use super::tip_velocity::TipFollower;
@@ -57,12 +57,12 @@ impl Modes {
         &mut self,
         machine: &Machine<f32>,
         (intent, arm_mps, slope): (&Intent, f32, Option<Slope>),
-        speeds: [f32; 4],
+        (speeds, under_way): ([f32; 4], &mut UnderWay),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        let shared = &mut self.shared;
-        shared.speeds = speeds;
+        self.shared.speeds = speeds;
+        let shared = (&mut self.shared, under_way);
         match intent.request {
             Request::TipVelocity => self.tip.follow(machine, shared, &intent.tip, pose, lengths),
             Request::Grade => {

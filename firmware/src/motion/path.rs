@@ -5,6 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Real, Rotor};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
+use super::law::UnderWay;
 use super::profile::Profile;
 use super::resolve::resolve;
 use super::sum::Sum;
@@ -130,11 +131,11 @@ impl PathFollower {
     }
 
     /// One tick of the path; at its end it holds.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        shared: &mut Coordination,
+        (shared, under_way): (&mut Coordination, &mut UnderWay),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
@@ -156,9 +157,11 @@ impl PathFollower {
         };
         self.elapsed = self.elapsed.saturating_add(1);
         let last = || self.segments.iter().flatten().last();
-        let at = self.segments.get(number).copied().flatten();
-        let segment = at.or_else(|| last().copied()).ok_or(Fault::NotConfigured)?;
-        let (share, rate) = if at.is_some() { segment.profile.at(self.time_s.value()) } else { (1.0, 0.0) };
+        let at = self.segments.get(number).and_then(Option::as_ref);
+        let under = at.is_some();
+        let segment = at.or_else(last).ok_or(Fault::NotConfigured)?;
+        let (share, rate) = if under { segment.profile.at(self.time_s.value()) } else { (1.0, 0.0) };
+        let duration_s = segment.profile.duration_s();
         let place = segment.place(share);
         let [x, z, pitch, swing] = segment.change.map(|change| change * rate);
         let twist = Twist { reach: x, height: z, pitch: pitch * TURN };
@@ -169,8 +172,8 @@ impl PathFollower {
         if factor < SLOWEST {
             factor = SLOWEST;
         }
-        if at.is_some() {
-            self.advance(number, &segment, factor);
+        if under {
+            self.advance(number, duration_s, factor);
         }
         let [.., first_swing] = self.first_place();
         let [.., swing_turns] = place;
@@ -180,7 +183,7 @@ impl PathFollower {
             feed_forward: rates.map(|rate| rate * factor),
             swing: self.swings.then_some([first_swing, swing_turns - first_swing]),
         };
-        let mut wanted = shared.close(&ahead, swing_lever, pose, lengths)?;
+        let mut wanted = shared.close(under_way, (&ahead, swing_lever), pose, lengths)?;
         wanted.dig_tick = self.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }
@@ -190,6 +193,7 @@ impl PathFollower {
         first.map_or([0.0; 4], |segment| segment.from)
     }
 
+    #[inline(never)]
     fn begin(&mut self, shared: &mut Coordination, pose: &Pose<f32>, lengths: &Cylinders<f32>) -> Result<(), Fault> {
         let [.., swing] = self.first_place();
         // Of a path that does not swing any swing will do.
@@ -203,9 +207,9 @@ impl PathFollower {
         Ok(())
     }
 
-    fn advance(&mut self, number: usize, segment: &Segment, factor: f32) {
+    fn advance(&mut self, number: usize, duration_s: f32, factor: f32) {
         self.time_s.add(TICK_S * factor);
-        if self.time_s.value() >= segment.profile.duration_s() {
+        if self.time_s.value() >= duration_s {
             self.time_s = Sum::new(0.0);
             let more = self.segments.get(number + 1).is_some_and(Option::is_some);
             self.phase = if more { Phase::Under(number + 1) } else { Phase::Ended(0) };

@@ -5,6 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
+use super::law::UnderWay;
 use super::resolve::resolve;
 use super::sum::Sum;
 use crate::TICK_S;
@@ -51,6 +52,7 @@ impl TipFollower {
         self.led = None;
     }
 
+    #[inline(never)]
     fn begin(&self, machine: &Machine<f32>, shared: &mut Coordination, lengths: &Cylinders<f32>) -> Result<Led, Fault> {
         let start = shared.begin(lengths, self.preview_s);
         let tip = machine.cylinders_to_tip(&start, Rotor::IDENTITY).map_err(|_| Fault::Geometry)?.plane;
@@ -66,11 +68,11 @@ impl TipFollower {
     }
 
     /// One tick towards the wanted velocity.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        shared: &mut Coordination,
+        (shared, under_way): (&mut Coordination, &mut UnderWay),
         wanted: &TipVelocity,
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
@@ -99,7 +101,7 @@ impl TipFollower {
         self.led = Some(led);
         let feed_forward = rates.map(|rate| rate * factor);
         let ahead = Ahead { start: led.start, lengths: ahead, feed_forward, swing: None };
-        let mut wanted = shared.close(&ahead, 1.0, pose, lengths)?;
+        let mut wanted = shared.close(under_way, (&ahead, 1.0), pose, lengths)?;
         wanted.dig_tick = led.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }
