@@ -3,10 +3,10 @@
 
 use std::collections::VecDeque;
 
-use firmware::sensing::SensorView;
 use firmware::Fault;
 use firmware::diagnosis::{Diagnosis, DiagnosisParameters, Pressures};
 use firmware::io::Speeds;
+use firmware::sensing::SensorView;
 use hil_sim::plant::sensors::Noise;
 
 /// Travel of the tests' cylinders, m; the sensor's 16 bit lie over it.

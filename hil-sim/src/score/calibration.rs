@@ -51,8 +51,10 @@ fn believed(plant: &HydraulicModel, coils: &CoilStageParameters, mut error: impl
             let sign = if direction == 0 { 1.0 } else { -1.0 };
             let speed = |share: f64| plant.steady_speed(function, sign * (band + share * (1.0 - band)) * full_a).abs();
             let full = speed(1.0);
-            let table: [f32; KNOTS] =
+            let mut table: [f32; KNOTS] =
                 std::array::from_fn(|knot| (speed(knot as f64 / (KNOTS - 1) as f64) / full) as f32);
+            // Where the dead band ends nothing flows, whatever rounding leaves.
+            table[0] = 0.0;
             *flow = FlowParameters {
                 min_current_a: ((band + error(DEAD_BAND)) * full_a) as f32,
                 full_speed: (full * (1.0 + error(GAIN))) as f32,
