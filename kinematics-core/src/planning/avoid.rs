@@ -156,6 +156,13 @@ impl<T: Real, const N: usize> Survey<T, N> {
     }
 }
 
+/// Rates on their way to what a step says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Choosing<T> {
+    rates: [T; 4],
+    to_go_s: T,
+}
+
 /// What one step says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<T> {
@@ -282,28 +289,58 @@ impl<T: Real> Avoid<T> {
     }
 
     /// The second half: the rates.
-    #[inline(never)]
     pub(crate) fn choose<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Step<T> {
-        self.rates(survey, aim)
+        self.settle(survey, self.head(survey, aim))
+    }
+
+    /// The first part of [`Self::choose`]: towards the aim, and all passes but the last.
+    #[inline(never)]
+    pub(crate) fn head<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Choosing<T> {
+        let mut choosing = self.towards(survey, aim);
+        self.passes(survey, PASSES - 1, &mut choosing.rates);
+        choosing
+    }
+
+    /// The rest of [`Self::choose`].
+    #[inline(never)]
+    pub(crate) fn settle<const N: usize>(&self, survey: &Survey<T, N>, mut choosing: Choosing<T>) -> Step<T> {
+        self.passes(survey, 1, &mut choosing.rates);
+        self.settled(survey, choosing)
     }
 
     #[inline(always)]
     fn rates<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Step<T> {
-        let Survey { here, near } = survey;
-        let lack = self.lack(here, aim);
+        let mut choosing = self.towards(survey, aim);
+        self.passes(survey, PASSES, &mut choosing.rates);
+        self.settled(survey, choosing)
+    }
+
+    /// Straight towards the aim.
+    #[inline(always)]
+    fn towards<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Choosing<T> {
+        let lack = self.lack(&survey.here, aim);
         let to_go_s = self.time(&lack);
         let per_time = T::ONE / if to_go_s > self.settle { to_go_s } else { self.settle };
-        let mut rates = lack.map(|lack| lack * per_time);
+        Choosing { rates: lack.map(|lack| lack * per_time), to_go_s }
+    }
 
+    /// Gives way to every obstacle and every end of travel, so often.
+    #[inline(always)]
+    fn passes<const N: usize>(&self, survey: &Survey<T, N>, often: usize, rates: &mut [T; 4]) {
         let mobility = self.speeds.map(|speed| speed * speed);
-        for _ in 0..PASSES {
-            for near in near.iter().flatten() {
-                self.give_way(near, &mobility, &mut rates);
+        for _ in 0..often {
+            for near in survey.near.iter().flatten() {
+                self.give_way(near, &mobility, rates);
             }
-            self.keep_travel(here, &mut rates);
+            self.keep_travel(&survey.here, rates);
         }
-        self.slow_down(near, &mut rates);
-        Step { rates, to_go_s, clearance: smallest(near), pace: self.pace(&rates) }
+    }
+
+    #[inline(always)]
+    fn settled<const N: usize>(&self, survey: &Survey<T, N>, choosing: Choosing<T>) -> Step<T> {
+        let Choosing { mut rates, to_go_s } = choosing;
+        self.slow_down(&survey.near, &mut rates);
+        Step { rates, to_go_s, clearance: smallest(&survey.near), pace: self.pace(&rates) }
     }
 
     /// How fast the distance may shrink, m/s.
