@@ -54,7 +54,7 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         // cycles.
         let p = &scenario.parameters;
         let budget = match (&p.fence, &p.reach) {
-            (Some(_), _) => 3_750,
+            (Some(_), _) => 3_950,
             (None, Some(_)) => 3_900,
             (None, None) => 2_900,
         };

@@ -40,7 +40,7 @@ enum Next {
 const PART: usize = 5;
 const PARTS: usize = STRIPS.div_ceil(PART);
 /// Work of a tick's weighing: so many ends far off, or a fifth as many that are near.
-const WORK: usize = 10;
+const WORK: usize = 13;
 /// Ticks that weigh a limit with little near it. With much it takes longer, and what was found holds for as far as the actuators could
 /// have gone in this time at full speed: not beyond.
 const TICKS_PER_LIMIT: usize = 3;
