@@ -49,15 +49,16 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         }
         assert_eq!(host.output_hash, emulator.output_hash, "{name}");
         assert_eq!(host.rows.len(), emulator.rows.len(), "{name}");
-        // Half a step past obstacles costs more than a tick of a dig or a move; a fence weighs a few strips of the linkage against one
-        // limit a tick, and keeps up to five approaches in bounds. A tick of 1 ms has 168,000 cycles.
+        // A third of a step past obstacles costs more than a tick of a dig or a move; a fence keeps up to five approaches in bounds, and in
+        // the next tick weighs a few strips of the linkage against one limit. The coils' currents are in it. A tick of 1 ms has 168,000
+        // cycles.
         let p = &scenario.parameters;
         let budget = match (&p.fence, &p.reach) {
-            (Some(_), _) => 4_100,
-            (None, Some(_)) => 3_200,
+            (Some(_), _) => 4_300,
+            (None, Some(_)) => 4_200,
             // Resolved rates, the delay lines and four spools that begin at once.
             (None, None) if p.motion.law.is_some() => 4_200,
-            (None, None) => 2_700,
+            (None, None) => 3_200,
         };
         assert!(figures.instructions_per_tick.max <= budget, "{name}: {figures:?}");
         assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 40 * 1024, "{name}: {figures:?}");
@@ -87,7 +88,7 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     scenario.duration_s = 3.0;
     let (_, figures) = on_emulator(&scenario, 1, &controller());
     println!("{figures:?}");
-    assert!(figures.instructions_per_tick.max <= 1_500);
+    assert!(figures.instructions_per_tick.max <= 2_700);
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 40 * 1024);
     // Most of it is construction: planners, validation, error texts. The STM32F405 has 1 MiB.
     assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 208 * 1024);
@@ -137,7 +138,7 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("time_scaling_step") <= 1500);
     assert!(largest("cylinder_path_at") <= 400);
     assert!(largest("planning_step") <= 330_000);
-    // In one piece; the loop does it in two halves.
+    // In one piece; the loop does it in three parts.
     assert!(largest("avoid_step_2") <= 3_000);
     assert!(largest("fence_place") <= 600);
     assert!(largest("fence_weigh") <= 750);

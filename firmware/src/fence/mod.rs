@@ -2,8 +2,12 @@
 //!
 //! What was commanded within the dead time, and what the spools' lag still gives, is to come whatever is decided now:
 //! `to_come` knows it from the valves' own model. The limits are weighed where that will have carried the machine
-//! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted. One limit is
-//! weighed a tick (`sweep`); what is near is followed every tick.
+//! ([`kinematics_core::planning::fence`]), so that no command is judged before the one ahead of it has been counted.
+//!
+//! Ticks take turns: in one, what is wanted is kept within the approaches that are near; in the next, some more of the linkage and its
+//! limits is weighed (`sweep`), what both ticks have commanded is counted, and no actuator gets more than it was let through before.
+//! What recedes makes up for what approaches only as far as its spool has opened, and that takes many ticks to close: one tick of less
+//! of it takes nothing away.
 
 mod parameters;
 mod sweep;
@@ -69,6 +73,10 @@ pub struct Fence {
     /// Where the actuators were measured last, and between which ends; a motor counts from wherever it is.
     positions: [f32; 4],
     travels: [[f32; 2]; 4],
+    /// Commanded in the tick before and not counted yet: it kept within limits, this one weighs.
+    sent: Option<[f32; 4]>,
+    /// What a tick that weighs lets through at most.
+    most: [f32; 4],
 }
 
 impl Fence {
@@ -96,6 +104,8 @@ impl Fence {
             positions: [0.0; 4],
             travels: [of_swing, boom, arm, bucket],
             to_come: valves.map(|valve| ToCome::new(&valve, p.dead_time_s, p.lag_s)),
+            sent: None,
+            most: [0.0; 4],
         })
     }
 
@@ -110,9 +120,30 @@ impl Fence {
     /// Forgets what was near: nothing passes until every limit has been weighed again.
     pub fn reset(&mut self) {
         self.sweep.reset();
+        self.most = [0.0; 4];
     }
 
     fn weigh(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Option<Fenced> {
+        let wanted = wanted.to_array();
+        let speeds = if self.sent.is_none() {
+            let (ahead, positions) = self.ahead(sensed)?;
+            let within = self.sweep.limit(&ahead, wanted, &self.receding(wanted, positions));
+            self.most = within.most;
+            within.speeds
+        } else {
+            if self.sweep.begins() {
+                let (ahead, _) = self.ahead(sensed)?;
+                self.sweep.begin(machine, &ahead, wanted)?;
+            } else {
+                self.sweep.go_on(machine)?;
+            }
+            held(wanted, &self.most)
+        };
+        Some(Fenced { speeds: Speeds::from_array(speeds), clearance_m: self.sweep.closest_m() })
+    }
+
+    /// Where the machine will be once everything commanded has arrived, and its actuators there.
+    fn ahead(&mut self, sensed: &Sensed) -> Option<(Ahead, [f32; 4])> {
         let measured = sensed.lengths;
         let of_swing = match &self.swing {
             Swing::Motor => 0.0,
@@ -128,8 +159,13 @@ impl Fence {
             bucket: at(measured.bucket, bucket, of_bucket),
         };
         let (swing, per_swing) = self.swing_ahead(sensed.swing, turning).ok()?;
-        let wanted = wanted.to_array();
         let positions = [of_swing + turning, lengths.boom, lengths.arm, lengths.bucket];
+        Some((Ahead { lengths, swing, per_swing }, positions))
+    }
+
+    /// Which part of its wanted speed each actuator has reached at its position ahead.
+    #[inline(always)]
+    fn receding(&self, wanted: [f32; 4], positions: [f32; 4]) -> [f32; 4] {
         let mut receding = [0.0; 4];
         let actuators = self.to_come.iter().zip(positions.into_iter().zip(self.travels));
         for ((part, wanted), (to_come, (position, [low, high]))) in receding.iter_mut().zip(wanted).zip(actuators) {
@@ -139,10 +175,7 @@ impl Fence {
                 *part = limited(to_come.speed() / wanted, 0.0, 1.0);
             }
         }
-        let ahead = Ahead { lengths, swing, per_swing };
-        self.sweep.step(machine, &ahead, wanted)?;
-        let (speeds, clearance_m) = self.sweep.limit(&ahead, wanted, &receding);
-        Some(Fenced { speeds: Speeds::from_array(speeds), clearance_m })
+        receding
     }
 
     /// The swing this travel of its actuator further, and dθ1 by that travel there.
@@ -156,11 +189,26 @@ impl Fence {
         }
     }
 
-    /// Counts what was really commanded this tick.
+    /// Counts what was really commanded this tick: with the tick before, if that kept within limits.
     pub fn sent(&mut self, speeds: &Speeds) {
-        let speeds = self.to_come.iter_mut().zip(speeds.to_array());
-        for ((to_come, speed), (position, travel)) in speeds.zip(self.positions.into_iter().zip(self.travels)) {
-            to_come.command(speed, position, travel);
+        let speeds = speeds.to_array();
+        let Some(before) = self.sent.take() else {
+            self.sent = Some(speeds);
+            return;
+        };
+        let speeds = self.to_come.iter_mut().zip(before.into_iter().zip(speeds));
+        for ((to_come, (before, speed)), (position, travel)) in speeds.zip(self.positions.into_iter().zip(self.travels))
+        {
+            to_come.command([before, speed], position, travel);
         }
     }
+}
+
+/// Each speed between 0 and the most of it.
+#[inline(always)]
+fn held(mut speeds: [f32; 4], most: &[f32; 4]) -> [f32; 4] {
+    for (speed, &most) in speeds.iter_mut().zip(most) {
+        *speed = if most > 0.0 { limited(*speed, 0.0, most) } else { limited(*speed, most, 0.0) };
+    }
+    speeds
 }

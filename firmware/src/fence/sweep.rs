@@ -1,6 +1,6 @@
-//! The limits weighed in turn: a tick for the joints, two to place the linkage, a tick for each part of its strips to tell how far they
-//! can come, then of a limit what a tick has room for: much that is far off or little that is near. Meanwhile what the sweep before has kept near is followed
-//! to first order; a wish larger than the one it was weighed with waits for the next.
+//! The limits weighed in turn, in every second tick: one for the joints, one to place the linkage, one for each part of its strips to tell how far
+//! they can come, then of a limit what a tick has room for: much that is far off or little that is near. Meanwhile what the sweep before has
+//! kept near is followed to first order; a wish larger than the one it was weighed with waits for the next.
 
 use core::ops::Range;
 
@@ -9,9 +9,9 @@ use kinematics_core::planning::outline::{Outline, PlacedOutline, STRIPS, Strip};
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Joints, Machine, Rotor};
 
+use super::held;
 use super::parameters::{FenceParameters, Guards};
 use crate::TICK_S;
-use crate::io::limited;
 use crate::parameters::{ParameterError, ValveDirection};
 
 /// Where the machine will be once everything commanded has arrived.
@@ -28,10 +28,8 @@ pub(super) struct Ahead {
 enum Next {
     /// The joints and their transmissions.
     Bend,
-    /// Place boom and arm at these joints.
-    Beams(Joints<f32>),
-    /// Place the bucket and its linkage.
-    Bucket(Joints<f32>),
+    /// Place the linkage at these joints.
+    Place(Joints<f32>),
     /// Tell how far this part of its strips can come.
     Reach(usize),
     /// Weigh the strips from the second number on against the first limit from the first number on.
@@ -39,13 +37,13 @@ enum Next {
 }
 
 /// Strips whose reach is told in a tick, and in how many ticks all are.
-const PART: usize = 4;
+const PART: usize = 5;
 const PARTS: usize = STRIPS.div_ceil(PART);
-/// Work of a tick's weighing: ten ends far off, or two that are near.
-const WORK: usize = 10;
-/// Ticks a limit takes with little near it. With much it takes longer, and what was found holds for as far as the actuators could
+/// Work of a tick's weighing: so many ends far off, or a fifth as many that are near.
+const WORK: usize = 13;
+/// Ticks that weigh a limit with little near it. With much it takes longer, and what was found holds for as far as the actuators could
 /// have gone in this time at full speed: not beyond.
-const TICKS_PER_LIMIT: usize = 5;
+const TICKS_PER_LIMIT: usize = 3;
 
 /// What is near, by the last complete sweep, and the sweep under way.
 #[derive(Clone, Debug)]
@@ -72,9 +70,9 @@ impl Sweep {
     ) -> Result<Self, ParameterError> {
         let fence = p.fence();
         let limits = fence.limits.half_spaces.iter().flatten().count() + fence.limits.spheres.iter().flatten().count();
-        // A tick bends, two place, some tell the reaches, one weighs the swing's range and hands over; what a sweep found serves until
-        // the next has ended.
-        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 4.0) * TICK_S;
+        // A tick bends, one places, some tell the reaches, one weighs the swing's range and hands over: each second tick. What a sweep
+        // found serves until the next has ended.
+        let age_s = 2.0 * ((limits * TICKS_PER_LIMIT + PARTS) as f32 + 3.0) * (2.0 * TICK_S);
         let fastest = |[extend, retract]: &[ValveDirection; 2]| {
             if extend.full_speed > retract.full_speed { extend.full_speed } else { retract.full_speed }
         };
@@ -106,25 +104,14 @@ impl Sweep {
         self.next = Next::Bend;
     }
 
-    /// One tick's share of the work; `None` where the linkage ahead does not close.
-    pub(super) fn step(&mut self, machine: &Machine<f32>, ahead: &Ahead, wanted: [f32; 4]) -> Option<()> {
-        match self.next {
-            Next::Bend => return self.bend(machine, ahead, wanted),
-            Next::Beams(joints) => {
-                self.outline.place_beams(&joints, &mut self.placed);
-                self.next = Next::Bucket(joints);
-            }
-            Next::Bucket(joints) => {
-                self.outline.place_bucket(machine, &joints, &mut self.placed).ok()?;
-                self.next = Next::Reach(0);
-            }
-            Next::Reach(part) => self.reach(part),
-            Next::Weigh(number, part) => self.weigh_from(number, part),
-        }
-        Some(())
+    /// The next tick's share of the work is [`Self::begin`].
+    pub(super) fn begins(&self) -> bool {
+        matches!(self.next, Next::Bend)
     }
 
-    fn bend(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
+    /// The first tick's share of a sweep: the joints and their transmissions; `None` where the linkage ahead does not close.
+    #[inline(never)]
+    pub(super) fn begin(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
         let lengths = &ahead.lengths;
         let joints = machine.cylinders_to_joints(lengths).ok()?;
         let [boom, arm, bucket] = machine.moment_arms(lengths).ok()?.transmissions().ok()?;
@@ -133,7 +120,22 @@ impl Sweep {
         self.scene.wish = wish;
         self.ahead = *ahead;
         self.found.clear();
-        self.next = Next::Beams(joints);
+        self.next = Next::Place(joints);
+        Some(())
+    }
+
+    /// The share of any tick after the first; `None` where the bucket's linkage does not close.
+    #[inline(never)]
+    pub(super) fn go_on(&mut self, machine: &Machine<f32>) -> Option<()> {
+        match self.next {
+            Next::Bend => {}
+            Next::Place(joints) => {
+                self.outline.place_into(machine, &joints, &mut self.placed).ok()?;
+                self.next = Next::Reach(0);
+            }
+            Next::Reach(part) => self.reach(part),
+            Next::Weigh(number, part) => self.weigh_from(number, part),
+        }
         Some(())
     }
 
@@ -166,19 +168,30 @@ impl Sweep {
         };
     }
 
-    /// What is let through, and the smallest clearance of the last sweep.
-    pub(super) fn limit(&self, ahead: &Ahead, wanted: [f32; 4], receding: &[f32; 4]) -> ([f32; 4], f32) {
+    /// What is let through of the wanted speeds, and of any until this is called again.
+    pub(super) fn limit(&self, ahead: &Ahead, wanted: [f32; 4], receding: &[f32; 4]) -> Within {
         let moved = self.near_ahead.until(ahead);
         let too_far = |(&moved, spare): (&f32, f32)| moved > spare || moved < -spare;
         if moved.iter().zip(self.scene.spare).any(too_far) {
-            return ([0.0; 4], self.near.closest);
+            return Within { speeds: [0.0; 4], most: [0.0; 4] };
         }
-        let mut weighed = wanted;
-        for (wanted, wish) in weighed.iter_mut().zip(self.near_wish) {
-            *wanted = if wish > 0.0 { limited(*wanted, 0.0, wish) } else { limited(*wanted, wish, 0.0) };
-        }
-        (self.fence.limit(&self.near, &weighed, receding, &moved), self.near.closest)
+        let speeds = self.fence.limit(&self.near, &held(wanted, &self.near_wish), receding, &moved);
+        let ([swing, ..], [_, boom, arm, bucket]) = (speeds, self.near_wish);
+        let most = if self.near.is_clear() { [swing, boom, arm, bucket] } else { speeds };
+        Within { speeds, most }
     }
+
+    /// The smallest clearance of the last sweep, m.
+    pub(super) fn closest_m(&self) -> f32 {
+        self.near.closest
+    }
+}
+
+/// What is let through: of what was wanted, and of whatever may be wanted next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Within {
+    pub(super) speeds: [f32; 4],
+    pub(super) most: [f32; 4],
 }
 
 /// The strips of a part, by number.

@@ -3,17 +3,22 @@
 //!
 //! The valve's model runs here without its dead time: it is where the actuator will be a dead time later. What it moved within
 //! the last dead time the machine has not done yet. A travel stop takes moves away for good, so they are cut as they are counted.
+//! Two ticks are counted at once.
 
 use crate::io::limited;
 use crate::parameters::ValveDirection;
 use crate::{TICK_S, TICKS_PER_S};
 
-/// The longest dead time, ticks.
-pub(super) const LONGEST_TICKS: usize = 512;
+/// What is counted at once.
+const PERIOD_S: f32 = 2.0 * TICK_S;
+const PERIODS_PER_S: f32 = TICKS_PER_S as f32 / 2.0;
 
-/// Moves are counted in 2⁻²² of a metre or radian, so that what is added and later taken off again is exact; 16 bits hold the move
-/// of one tick up to 7.8 m/s.
-const UNITS: f32 = 4_194_304.0;
+/// The longest dead time, periods.
+const LONGEST: usize = 256;
+
+/// Moves are counted in 2⁻²¹ of a metre or radian, so that what is added and later taken off again is exact; 16 bits hold the move
+/// of one period up to 7.8 m/s.
+const UNITS: f32 = 2_097_152.0;
 
 /// One direction of a valve.
 #[derive(Clone, Copy, Debug)]
@@ -36,14 +41,14 @@ impl Opening {
 pub(super) struct ToCome {
     valve: [Opening; 2],
     lag_s: f32,
-    /// The spool's share of the way to its command, a tick.
+    /// The spool's share of the way to its command, a period.
     spool_step: f32,
     spool: f32,
     /// At the spool's opening, a dead time ahead; and what is still to come when it closes.
     speed: f32,
     closing: f32,
     /// Moves of the last dead time, oldest at `next`.
-    moves: [i16; LONGEST_TICKS],
+    moves: [i16; LONGEST],
     delay: usize,
     next: usize,
     under_way: i32,
@@ -51,41 +56,32 @@ pub(super) struct ToCome {
 
 impl ToCome {
     pub(super) fn new(valve: &[ValveDirection; 2], dead_time_s: f32, lag_s: f32) -> Self {
-        let delay = (dead_time_s * TICKS_PER_S as f32 + 0.5) as usize;
+        let delay = (dead_time_s * PERIODS_PER_S + 0.5) as usize;
         Self {
             valve: valve.each_ref().map(Opening::new),
             lag_s,
             // 1 − exp(−x) to its third order.
-            spool_step: limited(TICK_S / (lag_s + 0.5 * TICK_S), 0.0, 1.0),
+            spool_step: limited(PERIOD_S / (lag_s + 0.5 * PERIOD_S), 0.0, 1.0),
             spool: 0.0,
             speed: 0.0,
             closing: 0.0,
-            moves: [0; LONGEST_TICKS],
-            delay: core::cmp::min(delay, LONGEST_TICKS),
+            moves: [0; LONGEST],
+            delay: core::cmp::min(delay, LONGEST),
             next: 0,
             under_way: 0,
         }
     }
 
-    /// One tick at this speed, of an actuator measured at `position` between these ends of its travel, m or rad.
-    pub(super) fn command(&mut self, speed: f32, position: f32, [low, high]: [f32; 2]) {
-        let [extend, retract] = &self.valve;
-        let opening = |valve: &Opening, speed: f32| {
-            let opening = valve.dead_band + speed * valve.per_speed;
-            if opening < 1.0 { opening } else { 1.0 }
-        };
-        let target = if speed > 0.0 {
-            opening(extend, speed)
-        } else if speed < 0.0 {
-            -opening(retract, -speed)
-        } else {
-            0.0
-        };
+    /// Two ticks at these speeds, of an actuator measured at `position` between these ends of its travel, m or rad.
+    pub(super) fn command(&mut self, [first, second]: [f32; 2], position: f32, [low, high]: [f32; 2]) {
+        let target =
+            if first == second { self.opening(first) } else { 0.5 * (self.opening(first) + self.opening(second)) };
         self.spool += (target - self.spool) * self.spool_step;
+        let before = self.speed;
         (self.speed, self.closing) = self.at_spool();
         let ahead = position + self.under_way as f32 * (1.0 / UNITS);
         // Up to the stop it goes towards, and never back from there.
-        let way = self.speed * TICK_S;
+        let way = (before + self.speed) * (0.5 * PERIOD_S);
         let way = if way > 0.0 { limited(high - ahead, 0.0, way) } else { limited(low - ahead, way, 0.0) };
         // The cast saturates.
         let moved = (way * UNITS) as i16;
@@ -99,6 +95,23 @@ impl ToCome {
         }
         if self.next >= self.delay {
             self.next = 0;
+        }
+    }
+
+    /// The spool's opening for a speed, retracting negative.
+    #[inline(always)]
+    fn opening(&self, speed: f32) -> f32 {
+        let [extend, retract] = &self.valve;
+        let of = |valve: &Opening, speed: f32| {
+            let opening = valve.dead_band + speed * valve.per_speed;
+            if opening < 1.0 { opening } else { 1.0 }
+        };
+        if speed > 0.0 {
+            of(extend, speed)
+        } else if speed < 0.0 {
+            -of(retract, -speed)
+        } else {
+            0.0
         }
     }
 
@@ -141,11 +154,12 @@ mod tests {
         let mut real = ToCome::new(&VALVE, 0.0, 0.05);
         let travel = [-10.0, 10.0];
         let mut moved = [0.0_f32; 2];
-        for tick in 0..commands.len() + 2000 {
-            let speed = tick.checked_sub(delay).and_then(|at| commands.get(at)).copied().unwrap_or(0.0);
-            real.command(speed, 0.0, travel);
+        for tick in (0..commands.len() + 2000).step_by(2) {
+            let at = |tick: usize| tick.checked_sub(delay).and_then(|at| commands.get(at)).copied().unwrap_or(0.0);
+            let before = real.speed();
+            real.command([at(tick), at(tick + 1)], 0.0, travel);
             // What is moved after the last command is decided.
-            moved[usize::from(tick >= commands.len())] += real.speed() * TICK_S;
+            moved[usize::from(tick >= commands.len())] += (before + real.speed()) * TICK_S;
         }
         moved[1]
     }
@@ -159,17 +173,18 @@ mod tests {
             &|tick| 0.3 - 0.001 * tick as f32,
         ];
         for program in programs {
-            for length in [1, 30, 100, 140, 400] {
+            for length in [2, 30, 100, 140, 400] {
                 let mut commands = [0.0; 400];
                 let commands = &mut commands[..length];
                 let mut to_come = ToCome::new(&VALVE, 0.1, 0.05);
-                for (tick, command) in commands.iter_mut().enumerate() {
-                    *command = program(tick);
-                    to_come.command(*command, 0.0, [-10.0, 10.0]);
+                for (period, pair) in commands.chunks_exact_mut(2).enumerate() {
+                    let both = [program(2 * period), program(2 * period + 1)];
+                    pair.copy_from_slice(&both);
+                    to_come.command(both, 0.0, [-10.0, 10.0]);
                 }
                 let (told, real) = (to_come.travel(), really_to_come(commands, 100));
                 // The bound of the logarithm errs to the far side: by 0.09·d/(1 − d)·v·τ = 0.3 mm at full speed
-                // here; a tick's sum and its integral differ by half a tick's move, 0.2 mm.
+                // here; a period's sum and its integral differ by half a tick's move, 0.2 mm.
                 assert!((told - real).abs() < 6e-4, "{told} {real} after {length}");
             }
         }
@@ -178,12 +193,12 @@ mod tests {
     #[test]
     fn what_a_travel_stop_takes_away_does_not_come_back() {
         let mut to_come = ToCome::new(&VALVE, 0.1, 0.05);
-        for _ in 0..500 {
-            to_come.command(0.4, 2.0, [1.0, 2.0]);
+        for _ in 0..250 {
+            to_come.command([0.4; 2], 2.0, [1.0, 2.0]);
         }
         assert_eq!(to_come.under_way, 0);
-        for _ in 0..80 {
-            to_come.command(-0.3, 2.0, [1.0, 2.0]);
+        for _ in 0..40 {
+            to_come.command([-0.3; 2], 2.0, [1.0, 2.0]);
         }
         // All of the way back is to come, nothing of what pressed against the stop.
         assert!(to_come.travel() < -0.005, "{}", to_come.travel());
@@ -192,12 +207,12 @@ mod tests {
     #[test]
     fn nothing_is_left_to_come_after_a_dead_time_at_rest() {
         let mut to_come = ToCome::new(&VALVE, 0.1, 0.05);
-        for _ in 0..1_000_000 {
-            to_come.command(0.31, 0.0, [-10.0, 10.0]);
+        for _ in 0..500_000 {
+            to_come.command([0.31; 2], 0.0, [-10.0, 10.0]);
         }
         assert!((to_come.travel() - (0.031 + 0.31 * 0.05 * 0.65)).abs() < 2e-3);
-        for _ in 0..600 {
-            to_come.command(0.0, 0.0, [-10.0, 10.0]);
+        for _ in 0..300 {
+            to_come.command([0.0; 2], 0.0, [-10.0, 10.0]);
         }
         assert_eq!(to_come.under_way, 0);
         assert_eq!(to_come.travel(), 0.0);

@@ -23,6 +23,10 @@ pub(super) struct ReachFollower {
     full_speeds: [[f32; 2]; 4],
     smallest_speed: f32,
     creep: [Creep; 4],
+    /// The actuators' speeds for the rates chosen last.
+    speeds: [f32; 4],
+    /// Rates were chosen in the tick before.
+    chosen: bool,
 }
 
 fn sphere(sphere: Option<Sphere<f64>>) -> Sphere<f32> {
@@ -50,13 +54,19 @@ impl ReachFollower {
             full_speeds: valves.map(|spool| spool.map(|direction| direction.full_speed)),
             smallest_speed: motion.smallest_speed_mps,
             creep: [Creep::REST; 4],
+            speeds: [0.0; 4],
+            chosen: false,
         })
     }
 
     #[inline(never)]
     pub(super) fn reset(&mut self) {
         self.reach.restart();
-        self.creep = [Creep::REST; 4];
+        self.rest();
+    }
+
+    fn rest(&mut self) {
+        (self.creep, self.speeds, self.chosen) = ([Creep::REST; 4], [0.0; 4], false);
     }
 
     /// One tick: planning at first, then towards the target, then rest.
@@ -71,14 +81,33 @@ impl ReachFollower {
         let told = self.reach.tick(&joints, TICK_S);
         match told.progress {
             Progress::Planning | Progress::Reached => {
-                self.creep = [Creep::REST; 4];
+                self.rest();
                 return Ok(Wanted::hold(lengths));
             }
             Progress::Moving => {}
             Progress::Blocked | Progress::NoRoute | Progress::NotConverged => return Err(Fault::Trajectory),
         }
+        // Rates and speeds hold until new ones are chosen: those become speeds in the next tick, which has more room.
+        if core::mem::replace(&mut self.chosen, told.clearance.is_some()) {
+            self.speeds = self.speeds_of(told.rates, machine, pose, lengths)?;
+        }
+        let mut passed = [0.0; 4];
+        for ((passed, speed), creep) in passed.iter_mut().zip(self.speeds).zip(&mut self.creep) {
+            *passed = creep.pass(speed, self.smallest_speed);
+        }
+        Ok(Wanted { speeds: Speeds::from_array(passed), ..Wanted::hold(lengths) })
+    }
+
+    /// The actuators' speeds for these joint rates, within their full speeds.
+    fn speeds_of(
+        &self,
+        rates: [f32; 4],
+        machine: &Machine<f32>,
+        pose: &Pose<f32>,
+        lengths: &Cylinders<f32>,
+    ) -> Result<[f32; 4], Fault> {
         let arms = machine.moment_arms(lengths).map_err(|_| Fault::Geometry)?;
-        let [swing, boom, arm, bucket] = told.rates;
+        let [swing, boom, arm, bucket] = rates;
         let swing = match machine.swing_cylinder() {
             Some(cylinder) => {
                 let length = cylinder.length(pose.swing).map_err(|_| Fault::Geometry)?;
@@ -86,12 +115,7 @@ impl ReachFollower {
             }
             None => swing,
         };
-        let speeds = self.within_full([swing, boom * arms.boom, arm * arms.arm, bucket * arms.bucket]);
-        let mut passed = [0.0; 4];
-        for ((passed, speed), creep) in passed.iter_mut().zip(speeds).zip(&mut self.creep) {
-            *passed = creep.pass(speed, self.smallest_speed);
-        }
-        Ok(Wanted { speeds: Speeds::from_array(passed), ..Wanted::hold(lengths) })
+        Ok(self.within_full([swing, boom * arms.boom, arm * arms.arm, bucket * arms.bucket]))
     }
 
     /// One factor for all, so that the way stays the same and no distance shrinks faster than planned.

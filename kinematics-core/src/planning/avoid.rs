@@ -144,7 +144,7 @@ pub struct Aim<T> {
 /// Where the joints and the obstacles are at one pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Survey<T, const N: usize> {
-    here: Aim<T>,
+    joints: [Rotor<T>; 4],
     near: [[Near<T>; SEGMENTS]; N],
 }
 
@@ -152,8 +152,16 @@ impl<T: Real, const N: usize> Survey<T, N> {
     /// Of nothing yet.
     pub(crate) const fn none() -> Self {
         let zero = Near { distance: T::ZERO, row: [T::ZERO; 4] };
-        Self { here: Aim { swing: Rotor::IDENTITY, places: [T::ZERO; 3] }, near: [[zero; SEGMENTS]; N] }
+        Self { joints: [Rotor::IDENTITY; 4], near: [[zero; SEGMENTS]; N] }
     }
+}
+
+/// Rates on their way to what a step says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Choosing<T> {
+    here: Aim<T>,
+    rates: [T; 4],
+    to_go_s: T,
 }
 
 /// What one step says.
@@ -262,7 +270,7 @@ impl<T: Real> Avoid<T> {
         // All in one piece: half again as quick as the two halves the loop shares with rehearsal.
         let placed = self.hull.place(joints);
         let near = obstacles.each_ref().map(|sphere| placed.near_inlined(sphere));
-        self.rates(&Survey { here: self.aim(joints), near }, aim)
+        self.rates(&Survey { joints: *joints, near }, aim)
     }
 
     /// The first half of a step: where everything is. One copy of it: rehearsal and motion share it. It fills in place: copying
@@ -274,7 +282,7 @@ impl<T: Real> Avoid<T> {
         obstacles: &[Sphere<T>; N],
         survey: &mut Survey<T, N>,
     ) {
-        survey.here = self.aim(joints);
+        survey.joints = *joints;
         let placed = self.hull.place(joints);
         for (near, sphere) in survey.near.iter_mut().zip(obstacles) {
             placed.near_into(sphere, near);
@@ -282,28 +290,59 @@ impl<T: Real> Avoid<T> {
     }
 
     /// The second half: the rates.
-    #[inline(never)]
     pub(crate) fn choose<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Step<T> {
-        self.rates(survey, aim)
+        self.settle(survey, self.head(survey, aim))
+    }
+
+    /// The first part of [`Self::choose`]: towards the aim, and all passes but the last.
+    #[inline(never)]
+    pub(crate) fn head<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Choosing<T> {
+        let mut choosing = self.towards(survey, aim);
+        self.passes(survey, PASSES - 1, &mut choosing);
+        choosing
+    }
+
+    /// The rest of [`Self::choose`].
+    #[inline(never)]
+    pub(crate) fn settle<const N: usize>(&self, survey: &Survey<T, N>, mut choosing: Choosing<T>) -> Step<T> {
+        self.passes(survey, 1, &mut choosing);
+        self.settled(survey, choosing)
     }
 
     #[inline(always)]
     fn rates<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Step<T> {
-        let Survey { here, near } = survey;
-        let lack = self.lack(here, aim);
+        let mut choosing = self.towards(survey, aim);
+        self.passes(survey, PASSES, &mut choosing);
+        self.settled(survey, choosing)
+    }
+
+    /// Straight towards the aim.
+    #[inline(always)]
+    fn towards<const N: usize>(&self, survey: &Survey<T, N>, aim: &Aim<T>) -> Choosing<T> {
+        let here = self.aim(&survey.joints);
+        let lack = self.lack(&here, aim);
         let to_go_s = self.time(&lack);
         let per_time = T::ONE / if to_go_s > self.settle { to_go_s } else { self.settle };
-        let mut rates = lack.map(|lack| lack * per_time);
+        Choosing { here, rates: lack.map(|lack| lack * per_time), to_go_s }
+    }
 
+    /// Gives way to every obstacle and every end of travel, so often.
+    #[inline(always)]
+    fn passes<const N: usize>(&self, survey: &Survey<T, N>, often: usize, choosing: &mut Choosing<T>) {
         let mobility = self.speeds.map(|speed| speed * speed);
-        for _ in 0..PASSES {
-            for near in near.iter().flatten() {
-                self.give_way(near, &mobility, &mut rates);
+        for _ in 0..often {
+            for near in survey.near.iter().flatten() {
+                self.give_way(near, &mobility, &mut choosing.rates);
             }
-            self.keep_travel(here, &mut rates);
+            self.keep_travel(&choosing.here, &mut choosing.rates);
         }
-        self.slow_down(near, &mut rates);
-        Step { rates, to_go_s, clearance: smallest(near), pace: self.pace(&rates) }
+    }
+
+    #[inline(always)]
+    fn settled<const N: usize>(&self, survey: &Survey<T, N>, choosing: Choosing<T>) -> Step<T> {
+        let Choosing { mut rates, to_go_s, .. } = choosing;
+        self.slow_down(&survey.near, &mut rates);
+        Step { rates, to_go_s, clearance: smallest(&survey.near), pace: self.pace(&rates) }
     }
 
     /// How fast the distance may shrink, m/s.

@@ -174,11 +174,12 @@ impl<T: Real> Reaches<T> {
     }
 }
 
-/// What is wanted that exceeds a bound: each actuator's share of the approach, what recedes negative and as far as it has been
+/// What is wanted that exceeds a bound: each actuator's share of the approach; what recedes, negative and as far as it has been
 /// reached; and the fastest allowed.
 #[derive(Clone, Copy, Debug)]
 struct Bound<T> {
-    shares: [T; 4],
+    towards: [T; 4],
+    away: [T; 4],
     fastest: T,
 }
 
@@ -298,8 +299,10 @@ impl<T: Real> Fence<T> {
     /// that much makes up for another's approach.
     pub fn limit(&self, nearby: &Nearby<T>, wanted: &[T; 4], receding: &[T; 4], moved: &[T; 4]) -> [T; 4] {
         let rates = self.turning_limited(nearby, wanted, moved);
-        let mut exceeded =
-            Exceeded { bounds: [Bound { shares: [T::ZERO; 4], fastest: T::ZERO }; NEARBY + 1], count: 0 };
+        let mut exceeded = Exceeded {
+            bounds: [Bound { towards: [T::ZERO; 4], away: [T::ZERO; 4], fastest: T::ZERO }; NEARBY + 1],
+            count: 0,
+        };
         for approach in nearby.kept() {
             let room = approach.room - sum(times(approach.by, *moved));
             exceeded.test(&self.stopping, times(approach.by, rates), room, receding);
@@ -329,6 +332,14 @@ impl<T: Real> Fence<T> {
     }
 }
 
+impl<T: Real> Bound<T> {
+    /// The speed of approach and, negative, of what recedes, with these factors of the actuators.
+    #[inline(always)]
+    fn speeds(&self, scales: &[T; 4]) -> (T, T) {
+        (sum(times(self.towards, *scales)), sum(times(self.away, *scales)))
+    }
+}
+
 /// The bounds that are exceeded.
 struct Exceeded<T> {
     bounds: [Bound<T>; NEARBY + 1],
@@ -339,15 +350,18 @@ impl<T: Real> Exceeded<T> {
     /// Notes shares of an approach that are too fast for the room, m.
     #[inline(always)]
     fn test(&mut self, stopping: &Stopping<T>, shares: [T; 4], room: T, receding: &[T; 4]) {
-        let towards = sum(shares.map(positive));
-        if towards * (stopping.reaction_s + towards * stopping.per_square()) > room
+        let towards = shares.map(positive);
+        let speed = sum(towards);
+        if speed * (stopping.reaction_s + speed * stopping.per_square()) > room
             && let Some(slot) = self.bounds.get_mut(self.count)
         {
-            let reached = times(shares, *receding);
-            for ((slot, share), reached) in slot.shares.iter_mut().zip(shares).zip(reached) {
-                *slot = if share > T::ZERO { share } else { reached };
-            }
-            slot.fastest = stopping.speed_within(room);
+            let away = |share: T, towards: T, reached: T| (share - towards) * reached;
+            let ([a, b, c, d], [ta, tb, tc, td], [ra, rb, rc, rd]) = (shares, towards, *receding);
+            *slot = Bound {
+                towards,
+                away: [away(a, ta, ra), away(b, tb, rb), away(c, tc, rc), away(d, td, rd)],
+                fastest: stopping.speed_within(room),
+            };
             self.count += 1;
         }
     }
@@ -360,15 +374,12 @@ impl<T: Real> Exceeded<T> {
         for _ in 0..ROUNDS {
             let mut kept = true;
             for bound in bounds {
-                let shares = times(bound.shares, scales);
-                let approach = sum(shares);
-                if approach > bound.fastest {
-                    let towards = sum(shares.map(positive));
-                    // Summed by itself, so that no rounding lifts it above 0.
-                    let away = sum(shares.map(|share| if share > T::ZERO { T::ZERO } else { share }));
+                // Summed by itself, so that no rounding lifts it above 0.
+                let (towards, away) = bound.speeds(&scales);
+                if towards + away > bound.fastest {
                     // towards > fastest − away ≥ 0
                     let factor = (bound.fastest - away) / towards;
-                    for (scale, share) in scales.iter_mut().zip(bound.shares) {
+                    for (scale, share) in scales.iter_mut().zip(bound.towards) {
                         *scale = if share > T::ZERO { *scale * factor } else { *scale };
                     }
                     kept = false;
@@ -380,7 +391,8 @@ impl<T: Real> Exceeded<T> {
         }
         let mut common = T::ONE;
         for bound in bounds {
-            let approach = sum(times(bound.shares, scales));
+            let (towards, away) = bound.speeds(&scales);
+            let approach = towards + away;
             if approach * common > bound.fastest {
                 common = bound.fastest / approach;
             }

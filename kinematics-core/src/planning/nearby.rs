@@ -82,6 +82,7 @@ impl<T: Real> Nearby<T> {
     /// ```
     /// use kinematics_core::planning::fence::Nearby;
     /// assert_eq!(Nearby::<f32>::none().closest, f32::MAX);
+    /// assert!(Nearby::<f32>::none().is_clear());
     /// ```
     pub fn none() -> Self {
         let unused = Approach { by: [T::ZERO; 4], room: T::ZERO, demand: T::ZERO };
@@ -94,6 +95,11 @@ impl<T: Real> Nearby<T> {
         (self.used, self.more, self.turning) = (0, false, None);
         self.rest = Joined::nothing();
         self.closest = most();
+    }
+
+    /// No half-space and no ball is near: of boom, arm and bucket no wish up to the one weighed with is too fast.
+    pub fn is_clear(&self) -> bool {
+        self.used == 0
     }
 
     /// Keeps an approach by itself while there is room, else in place of the least demanding; that one is joined to the rest.

@@ -8,11 +8,11 @@
 //! 4. *Rehearsal*: the steps along a route, at a coarse time step, before anything moves; the first that arrives is taken.
 //!    None is [`Progress::NoRoute`].
 //!
-//! Then the same step follows it, one in two ticks: the first looks where everything is, the second chooses the rates, which hold
-//! for two ticks. At 1 kHz that is a step every 2 ms, against time constants of a quarter of a second and more. A step that gets stuck all the same plans anew from where it stands and takes
+//! Then the same step follows it, one in three ticks: the first looks where everything is, the second and the third choose the rates, which hold
+//! for three ticks. At 1 kHz that is a step every 3 ms, against time constants of a quarter of a second and more. A step that gets stuck all the same plans anew from where it stands and takes
 //! the next route that arrives, [`REPLANS`] times at most: [`Progress::NotConverged`].
 
-use super::avoid::{Aim, Avoid, Step, Survey, advanced};
+use super::avoid::{Aim, Avoid, Choosing, Step, Survey, advanced};
 use super::hull::Sphere;
 use super::route::{Bearing, Map, POSTURES, ROUTES, Route};
 use crate::chain::Chain;
@@ -165,6 +165,8 @@ pub struct Reach<T, const N: usize> {
     /// The first half of a step; whether it was done in the tick before.
     survey: Survey<T, N>,
     surveyed: bool,
+    /// On the way, the first part of the choice.
+    chosen: Option<Choosing<T>>,
     /// The rates until the next step is complete.
     rates: [T; 4],
 }
@@ -200,6 +202,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
             passed_over: 0,
             survey: Survey::none(),
             surveyed: false,
+            chosen: None,
             rates: [T::ZERO; 4],
         }
     }
@@ -255,7 +258,7 @@ impl<T: Real, const N: usize> Reach<T, N> {
         self.start = *joints;
         (self.nearest, self.clearest, self.second_pose) = (None, None, false);
         self.passed_over = self.replans;
-        (self.surveyed, self.rates) = (false, [T::ZERO; 4]);
+        (self.surveyed, self.chosen, self.rates) = (false, None, [T::ZERO; 4]);
     }
 
     fn try_pitch(&mut self, pitch: usize, of: usize) {
@@ -418,21 +421,26 @@ impl<T: Real, const N: usize> Reach<T, N> {
     }
 
     fn follow(&mut self, joints: &[Rotor<T>; 4], dt: T) -> Told<T> {
+        let on = Told { progress: Progress::Moving, rates: self.rates, clearance: None };
         if !self.surveyed {
             self.avoid.survey(joints, &self.obstacles, &mut self.survey);
             self.surveyed = true;
-            return Told { progress: Progress::Moving, rates: self.rates, clearance: None };
+            return on;
         }
-        self.surveyed = false;
         let Phase::Follow { along } = &mut self.phase else { return self.planning() };
-        let Some(aim) = along.route.aim(along.passed) else { return self.stuck() };
-        let step = self.avoid.choose(&self.survey, &aim);
+        let Some(chosen) = self.chosen.take() else {
+            let Some(aim) = along.route.aim(along.passed) else { return self.stuck() };
+            self.chosen = Some(self.avoid.head(&self.survey, &aim));
+            return on;
+        };
+        self.surveyed = false;
+        let step = self.avoid.settle(&self.survey, chosen);
         let told = Told { progress: Progress::Moving, rates: step.rates, clearance: Some(step.clearance) };
         let last = along.route.is_last(along.passed);
         if !last && step.to_go_s < T::from_f64(PASSED_S) {
             along.passed += 1;
         }
-        let stuck = along.stuck_after(&step, dt + dt);
+        let stuck = along.stuck_after(&step, dt + dt + dt);
         if last && self.miss_square(joints) <= self.tolerance * self.tolerance {
             self.end(Progress::Reached);
             return Told { progress: Progress::Reached, rates: [T::ZERO; 4], ..told };

@@ -6,7 +6,6 @@
 //! whole numbers: nothing drifts, and the last tick stands on the end.
 
 use core::fmt;
-use core::marker::PhantomData;
 
 use crate::Real;
 use crate::planning::cylinder_path::CylinderPath;
@@ -110,14 +109,13 @@ impl<T: Real> Pace<T> {
 pub struct TimeScaling<T> {
     table: SpeedTable,
     /// From sums over the ring to s, ṡ, s̈, s⃛.
-    scale: [f64; 4],
-    number: PhantomData<T>,
+    scale: [T; 4],
 }
 
 impl<T: Real> TimeScaling<T> {
     /// Of no path: it never gets anywhere.
     pub const fn standstill() -> Self {
-        Self { table: SpeedTable::STANDSTILL, scale: [0.0; 4], number: PhantomData }
+        Self { table: SpeedTable::STANDSTILL, scale: [T::ZERO; 4] }
     }
 
     /// Plans the speeds along the path, a control tick of `tick_s` seconds, in place.
@@ -133,7 +131,8 @@ impl<T: Real> TimeScaling<T> {
         self.table.plan(path, limits, tick_s).ok_or(NoProfile)?;
         let s = 1.0 / (WHOLE as f64 * self.table.average() as f64);
         let per_tick = 1.0 / tick_s;
-        self.scale = [s, s * per_tick, s * per_tick * per_tick, s * per_tick * per_tick * per_tick];
+        let scale = [s, s * per_tick, s * per_tick * per_tick, s * per_tick * per_tick * per_tick];
+        self.scale = scale.map(T::from_f64);
         Ok(())
     }
 
@@ -154,15 +153,16 @@ impl<T: Real> TimeScaling<T> {
         pace.place += speed;
         pace.in_ring = (pace.in_ring + speed).saturating_sub(leaving);
         pace.places += pace.in_ring;
-        // Sums below 2⁵³ are exact in f64.
-        let signed = |new: u64, old: u64| new as f64 - old as f64;
+        // Speeds are not above 2³⁰.
+        let speeds = [speed, leaving, last, pace.dropped].map(|speed| speed as i32);
+        let [now, left, before, dropped] = speeds;
         let [s, rate, acceleration, jerk] = self.scale;
         let done = pace.place == WHOLE && pace.in_ring == 0;
         pace.progress = Progress {
-            s: if done { T::ONE } else { T::from_f64(pace.places as f64 * s) },
-            rate: T::from_f64(pace.in_ring as f64 * rate),
-            acceleration: T::from_f64(signed(speed, leaving) * acceleration),
-            jerk: T::from_f64((signed(speed, last) - signed(leaving, pace.dropped)) * jerk),
+            s: if done { T::ONE } else { number::<T>(pace.places) * s },
+            rate: number::<T>(pace.in_ring) * rate,
+            acceleration: T::from_i32(now - left) * acceleration,
+            jerk: (T::from_i32(now - before) - T::from_i32(left - dropped)) * jerk,
             done,
         };
         pace.dropped = leaving;
@@ -208,4 +208,11 @@ impl<T: Real> TimeScaling<T> {
         };
         core::cmp::min(speed, left)
     }
+}
+
+/// A sum below 2⁵³ as a number: its halves are exact, so it is rounded about once. No f64, which the Cortex-M4F has not.
+#[inline(always)]
+fn number<T: Real>(sum: u64) -> T {
+    let (high, low) = ((sum >> 30) as i32, (sum & 0x3fff_ffff) as i32);
+    T::from_i32(high) * T::from_i32(1 << 30) + T::from_i32(low)
 }
