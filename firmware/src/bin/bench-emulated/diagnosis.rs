@@ -2,6 +2,7 @@
 
 use core::hint::black_box;
 
+use firmware::sensing::SensorView;
 use firmware::Fault;
 use firmware::diagnosis::{Diagnosis, DiagnosisParameters, NO_PRESSURES, Pressures};
 use firmware::io::Speeds;
@@ -22,7 +23,7 @@ fn judge(diagnosis: &mut Diagnosis, (codes, pressures, sent): &Tick) -> Option<F
 pub(crate) fn diagnosis(out: &mut Out, stopwatch: &Stopwatch) {
     let parameters = DiagnosisParameters::of_full_speeds([[0.4; 2]; 4]);
     // 20 µm a code: 20 codes a tick at full speed.
-    let mut diagnosis = black_box(Diagnosis::new(&parameters, [2e-5; 4]));
+    let mut diagnosis = black_box(Diagnosis::new(&parameters, [SensorView { unit: 2e-5, stops: [0, u16::MAX] }; 4]));
     let at = |code: f32, speed: f32| -> Tick { ([code as u16; 4], NO_PRESSURES, Speeds::from_array([speed; 4])) };
     row(out, stopwatch, "diagnosis_moving", |t| at(20_000.0 + 2000.0 * t, 0.4), |tick| judge(&mut diagnosis, tick));
     for _ in 0..5000 {
