@@ -17,6 +17,7 @@ mod progress;
 pub mod run;
 pub mod scenes;
 pub mod score;
+pub mod soak;
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -51,6 +52,8 @@ enum Command {
     Fence(fence::FenceArgs),
     /// Score the motion on drawn plants: the true tip against the path, open loop, proportional alone, uncalibrated, half the flow
     Score(score::ScoreArgs),
+    /// Let random operators work for hours on a healthy machine: nothing may trip
+    Soak(soak::SoakArgs),
     /// Break everything that can break, in every situation, thousands of times: what is seen, how soon, and the tip's way to standstill
     Faults(faults::FaultsArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
@@ -103,6 +106,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Run(args) }) => run::main(&args),
         Ok(Hil { command: Command::Fence(args) }) => fence::main(&args),
         Ok(Hil { command: Command::Scenes(args) }) => scenes::main(&args),
+        Ok(Hil { command: Command::Soak(args) }) => soak::main(&args),
         Ok(Hil { command: Command::Score(args) }) => score::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),

@@ -15,6 +15,7 @@
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`score`] — the motion on plants that no tuning has seen;
+//! - [`soak`] — hours of nominal work, and whether anything trips;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`supervisor_page`] — the supervisor drawn, and the page of faults;
@@ -44,6 +45,7 @@ pub mod scenario;
 pub mod scenes;
 pub mod score;
 pub mod service;
+pub mod soak;
 pub mod supervisor_page;
 mod toml_text;
 pub mod travel;

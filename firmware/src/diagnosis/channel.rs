@@ -48,6 +48,8 @@ pub(super) struct Channel {
     inside: bool,
     /// It is the opposite of the command.
     against: bool,
+    /// No other actuator moves: none takes its oil.
+    alone: bool,
     /// Rounds outside the envelope.
     outside: u8,
     limits: StuckLimits,
@@ -76,6 +78,7 @@ impl Channel {
             envelope: Envelope::default(),
             inside: true,
             against: false,
+            alone: true,
             outside: 0,
             limits: StuckLimits {
                 travel: limits.stuck_travel,
@@ -138,13 +141,20 @@ impl Channel {
         let margin = self.speed_margin + model.coupling * others * self.full;
         self.inside = speed <= high + margin && speed >= low - margin;
         self.against = command * speed < 0.0;
+        self.alone = others == 0.0;
     }
 
     /// Second in a round: what is wrong.
     #[inline(always)]
     pub(super) fn look(&mut self, free: Free, sides: Sides<'_>) {
         let codes = [self.round_before, self.round_code];
-        let stuck = self.stuck.follow(&self.limits, self.envelope.sure(), codes, self.unit, (free, sides));
+        let stuck = self.stuck.follow(
+            &self.limits,
+            self.envelope.sure(),
+            codes,
+            self.unit,
+            (free, sides.filter(|_| self.alone)),
+        );
         if self.inside && !stuck && self.wrong.is_none() {
             self.outside = 0;
         } else {

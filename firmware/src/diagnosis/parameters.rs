@@ -76,7 +76,7 @@ impl DiagnosisParameters {
             run_on_s: 2.0,
             overshoot: 0.75,
             ring: 1.0,
-            coupling: 0.7,
+            coupling: 1.0,
             rebound: 0.5,
             supplied_pa: 2e6,
             stalled_pa: 15e6,
@@ -107,7 +107,7 @@ impl DiagnosisParameters {
         within("diagnosis.run_on_s", self.run_on_s.into(), [0.1, 5.0])?;
         within("diagnosis.overshoot", self.overshoot.into(), [0.0, 2.0])?;
         within("diagnosis.ring", self.ring.into(), [0.0, 1.0])?;
-        within("diagnosis.coupling", self.coupling.into(), [0.0, 1.0])?;
+        within("diagnosis.coupling", self.coupling.into(), [0.0, 3.0])?;
         within("diagnosis.rebound", self.rebound.into(), [0.0, self.ring.into()])?;
         within("diagnosis.supplied_pa", self.supplied_pa.into(), [0.0, self.stalled_pa.into()])?;
         within("diagnosis.stalled_pa", self.stalled_pa.into(), [1e6, 60e6])

@@ -1,4 +1,5 @@
-//! A sensor that does not follow: told from a stall by its lost noise, or by the pressure of the driven side.
+//! A sensor that does not follow: told from a stall by its lost noise, or by the pressure of the driven side where no other actuator
+//! takes its oil.
 
 use super::{OUTSIDE_ROUNDS, QUIET_ROUNDS, ROUND_S};
 

@@ -12,6 +12,7 @@ use crate::machine_file::MachineFile;
 
 pub use kind::{Bus, Cause, KINDS, Kind, Sensor};
 pub use situation::Situation;
+pub(crate) use situation::working as working_scenario;
 pub use tally::{Report, Row, Spread};
 
 /// A part of a campaign: case i belongs to shard i modulo `of`.

@@ -41,18 +41,18 @@ pub(super) struct Mover {
     pub(super) side: usize,
 }
 
-/// The machine's scenario in a situation; the levers are in neutral from `released_s` on.
-pub(super) fn scenario(
+/// A scenario of levers on this machine: on its hydraulics where the file has them.
+pub(crate) fn working(
     machine: &MachineFile,
-    situation: Situation,
-    mover: Mover,
-    released_s: f64,
+    start: Start,
+    duration_s: f64,
+    payload_kg: f64,
 ) -> Result<Scenario, String> {
     let g = &machine.geometry;
     let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
     let speed = |i: usize| (strokes[i].max_m - strokes[i].min_m) / STROKE_TIMES_S[i];
     let plant = if machine.hydraulics.is_some() {
-        "model = \"hydraulic\"\npayload_kg = 500.0\n".to_owned()
+        format!("model = \"hydraulic\"\npayload_kg = {payload_kg}\n")
     } else {
         format!(
             "dead_time_s = 0.1\nspool_lag_s = 0.05\ndead_band_extend = 0.15\ndead_band_retract = 0.20\nswing_speed_rad_s = 1.2\n\
@@ -63,7 +63,7 @@ pub(super) fn scenario(
         )
     };
     let text = format!(
-        "name = \"fault\"\ndescription = \"something breaks\"\nmachine = \"exact-mini\"\nduration_s = {DURATION_S}\n\
+        "name = \"fault\"\ndescription = \"something breaks\"\nmachine = \"exact-mini\"\nduration_s = {duration_s}\n\
          [operator]\nenable_s = 0.2\nbegin_s = {BEGIN_S}\n\
          [start]\nswing_deg = 0.0\nboom_m = 1.1\narm_m = 1.3\nbucket_m = 1.0\n\
          [[lever]]\nat_s = 0.0\nuntil_s = 1.0\nswing = 0.0\nboom = 0.0\narm = 0.0\nbucket = 0.0\n\
@@ -72,6 +72,18 @@ pub(super) fn scenario(
          [plant]\n{plant}coil_full_scale_a = 1.2\ncoil_resistance_ohm = 5.3\ncoil_inductance_h = 0.1\n\
          supply_v = 24.0\nsensor_noise_m = 0.0001\n"
     );
+    Scenario::of_machine(&text, machine.clone(), start)
+}
+
+/// The machine's scenario in a situation; the levers are in neutral from `released_s` on.
+pub(super) fn scenario(
+    machine: &MachineFile,
+    situation: Situation,
+    mover: Mover,
+    released_s: f64,
+) -> Result<Scenario, String> {
+    let g = &machine.geometry;
+    let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
     // Room for the motion of the whole run, or none.
     let [extending, at_stop] = [mover.side == 0, situation == Situation::EndStop];
     let place = |i: usize| {
@@ -86,7 +98,7 @@ pub(super) fn scenario(
         min_m + share * (max_m - min_m)
     };
     let start = Start { swing_deg: 0.0, boom_m: place(0), arm_m: place(1), bucket_m: place(2) };
-    let mut scenario = Scenario::of_machine(&text, machine.clone(), start)?;
+    let mut scenario = working(machine, start, DURATION_S, 500.0)?;
     let mut moves = moves(situation, mover);
     moves.retain(|lever| lever.at_s < released_s);
     moves.iter_mut().for_each(|lever| lever.until_s = lever.until_s.min(released_s));

@@ -2,10 +2,10 @@
 
 use core::hint::black_box;
 
-use firmware::sensing::SensorView;
 use firmware::Fault;
 use firmware::diagnosis::{Diagnosis, DiagnosisParameters, NO_PRESSURES, Pressures};
 use firmware::io::Speeds;
+use firmware::sensing::SensorView;
 
 use crate::bench::{Out, row};
 use crate::emulated::stopwatch::Stopwatch;

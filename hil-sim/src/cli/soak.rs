@@ -1,0 +1,82 @@
+//! `hil soak`: hours of nominal work without a trip.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::faults::shard;
+use super::print_with_json;
+use super::progress::Progress;
+use crate::faults::Shard;
+use crate::machine_file::MachineFile;
+use crate::soak::{Report, runs, soak};
+
+/// Arguments of `hil soak`.
+#[derive(Debug, Args)]
+pub struct SoakArgs {
+    /// Simulated hours, 1 to 10000
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    hours: u32,
+    /// A machine's name, or the path of a machine file
+    #[arg(long, default_value = "zx200")]
+    machine: String,
+    /// Seed of operators, payloads and noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Only every n-th minute, the i-th first: 0/1 is all
+    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
+    shard: Shard,
+    /// Write the result as JSON to a file, or to standard output with `-`
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+type AnyError = Box<dyn std::error::Error>;
+
+/// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 something tripped.
+pub fn main(args: &SoakArgs) -> ExitCode {
+    let report = match run(args) {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::from(2);
+        }
+    };
+    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
+        eprintln!("error: {error}");
+        return ExitCode::from(1);
+    }
+    ExitCode::from(if report.trips.is_empty() { 0 } else { 3 })
+}
+
+fn run(args: &SoakArgs) -> Result<Report, AnyError> {
+    let machine = MachineFile::load(&args.machine)?;
+    let minutes = runs(args.hours).div_ceil(args.shard.of);
+    let progress = Mutex::new(Progress::new(&machine.name, minutes, 60.0, "hours"));
+    let report = soak(&machine, args.hours, args.seed, args.shard, || {
+        // A poisoned lock only means that another run has panicked: it will tell.
+        if let Ok(mut progress) = progress.lock() {
+            progress.step();
+        }
+    })?;
+    if let Ok(progress) = progress.into_inner() {
+        progress.finish();
+    }
+    Ok(report)
+}
+
+fn table(report: &Report) -> String {
+    let Report { machine, seed, hours, travel_m, trips } = report;
+    let mut out = format!(
+        "{machine}: {hours:.1} simulated hours of random levers, {travel_m:.0} m of cylinder travel (seed {seed}): {} trips\n",
+        trips.len()
+    );
+    for trip in trips {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  minute {}: {} at {:.3} s", trip.run, trip.fault, trip.at_s);
+    }
+    out
+}

@@ -1,0 +1,134 @@
+//! Hours of nominal work: random operators on a healthy machine, and whether the controller ever stops it.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::faults::{Shard, working_scenario};
+use crate::machine_file::MachineFile;
+use crate::place::Host;
+use crate::run::Run;
+use crate::scenario::{LeverMove, Start, Task};
+
+/// Length of one run, s: sixty make an hour.
+pub const RUN_S: f64 = 60.0;
+
+/// A fault named though nothing was wrong.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trip {
+    /// The run.
+    pub run: u64,
+    /// When in it, s.
+    pub at_s: f64,
+    /// What was named.
+    pub fault: &'static str,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The machine.
+    pub machine: String,
+    /// Seed of all runs.
+    pub seed: u64,
+    /// Simulated hours.
+    pub hours: f64,
+    /// The cylinders' way together, m: that it was work.
+    pub travel_m: f64,
+    /// Every trip.
+    pub trips: Vec<Trip>,
+}
+
+struct Dice(ChaCha8Rng);
+
+impl Dice {
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * ((self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    fn with_chance(&mut self, chance: f64) -> bool {
+        self.within(0.0, 1.0) < chance
+    }
+}
+
+/// Runs of a number of hours.
+pub fn runs(hours: u32) -> u64 {
+    u64::from(hours) * (3600.0 / RUN_S) as u64
+}
+
+/// Lets random operators work; `done` is called after each run. The same runs give the same result in any split.
+///
+/// # Errors
+/// The machine cannot be simulated.
+pub fn soak(
+    machine: &MachineFile,
+    hours: u32,
+    seed: u64,
+    shard: Shard,
+    done: impl Fn() + Sync,
+) -> Result<Report, String> {
+    let mine: Vec<u64> = (0..runs(hours)).filter(|run| run % shard.of == shard.index).collect();
+    let count = mine.len();
+    let found: Vec<(f64, Option<Trip>)> = mine
+        .into_par_iter()
+        .map(|run| {
+            let found = work(machine, seed, run)?;
+            done();
+            Ok(found)
+        })
+        .collect::<Result<_, String>>()?;
+    Ok(Report {
+        machine: machine.name.clone(),
+        seed,
+        hours: count as f64 * RUN_S / 3600.0,
+        travel_m: found.iter().map(|(travel, _)| travel).sum(),
+        trips: found.into_iter().filter_map(|(_, trip)| trip).collect(),
+    })
+}
+
+/// One operator: the way of the cylinders, m, and the first fault.
+fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>), String> {
+    let case = seed ^ (run << 20) ^ 0x50_a4;
+    let mut dice = Dice(ChaCha8Rng::seed_from_u64(case));
+    let g = &machine.geometry;
+    let mut place = |stroke: kinematics_core::geometry::Stroke| {
+        stroke.min_m + dice.within(0.2, 0.8) * (stroke.max_m - stroke.min_m)
+    };
+    let (boom_m, arm_m, bucket_m) = (place(g.boom.stroke), place(g.arm.stroke), place(g.bucket.stroke));
+    let start = Start { swing_deg: 0.0, boom_m, arm_m, bucket_m };
+    let payload_kg = dice.within(0.0, 1000.0);
+    let mut scenario = working_scenario(machine, start, RUN_S, payload_kg)?;
+    scenario.task = Task::Levers { start, moves: moves(&mut dice, scenario.begin_s) };
+    let mut host = Host::new(&scenario.parameters).map_err(|error| error.to_string())?;
+    let run_ = Run::new(&scenario, case).map_err(|error| error.to_string())?;
+    let log = run_.complete(&mut host, |_, _| {}).map_err(|error| error.to_string())?;
+    let travel = log.rows.windows(2).map(|pair| {
+        let (a, b) = (pair[0].lengths, pair[1].lengths);
+        (a.boom - b.boom).abs() + (a.arm - b.arm).abs() + (a.bucket - b.bucket).abs()
+    });
+    let trip = log.faults.first().map(|fault| Trip { run, at_s: fault.at_s, fault: fault.fault.name() });
+    Ok((travel.sum(), trip))
+}
+
+/// Levers held for 0.3 to 4 s, often several at once, a third of them at rest, a fifth of the others full; against the stops too.
+fn moves(dice: &mut Dice, begin_s: f64) -> Vec<LeverMove> {
+    let mut moves = Vec::new();
+    let mut at_s = begin_s;
+    while at_s < RUN_S - 1.0 {
+        let until_s = (at_s + dice.within(0.3, 4.0)).min(RUN_S - 1.0);
+        let mut lever = || {
+            let deflection = dice.within(-1.0, 1.0);
+            match (dice.with_chance(0.35), dice.with_chance(0.2)) {
+                (true, _) => 0.0,
+                (_, true) => deflection.signum(),
+                _ => deflection,
+            }
+        };
+        let (swing, boom, arm, bucket) = (lever(), lever(), lever(), lever());
+        // Turning round at full speed is no nominal work of a swing.
+        moves.push(LeverMove { at_s, until_s, swing: 0.5 * swing, boom, arm, bucket });
+        at_s = until_s;
+    }
+    moves
+}
