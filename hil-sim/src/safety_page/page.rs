@@ -16,8 +16,8 @@ and no conformity with any standard is claimed. No board has been flashed and no
 simulation or in emulation. Who builds it into a machine needs that machine's own risk assessment, and protection that does not depend on this.
 
 Words: *running*, *neutral*, *enable* and *latched* are those of [faults.md](faults.md), where every fault stands with its bound. After
-the start-up tests the supervisor (`firmware::supervisor`) alone opens the gate to the valves and closes the cut-off. The safe state is: all currents zero and the cut-off
-open. It stops the valves; it does not hold a load against a leaking spool or a burst hose.
+the start-up tests the supervisor (`firmware::supervisor`) alone opens the gate to the valves and closes the cut-off. The safe state is: all currents
+zero and the cut-off open. It stops the valves; it does not hold a load against a leaking spool or a burst hose.
 
 ## What is promised
 

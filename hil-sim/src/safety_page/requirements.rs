@@ -235,7 +235,7 @@ pub const REQUIREMENTS: &[Requirement] = &[
     ),
     promise(
         "SR-26",
-        "Before a configured fence the linkage is slowed; no part of a simulated machine's passes it under random operators.",
+        "Before a configured fence the linkage is slowed; no part of it passes on the simulated machine under random operators.",
         &[
             "sixty_random_operators_never_carry_the_linkage_past_a_limit_and_a_fence_of_the_tip_alone_lets_them",
             "what_is_let_through_lies_between_nothing_and_what_was_wanted_and_keeps_every_bound",
