@@ -19,6 +19,7 @@
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`supervisor_page`] — the supervisor drawn, and the page of faults;
+//! - [`safety_page`] — what is promised, the tests that show it, and what is not detected;
 //! - [`coil_trial`] — the coil current loop on simulated solenoids: steps, dither, sweeps, faults;
 //! - [`plant_trial`] — strokes of the hydraulic plant at full lever;
 //! - [`labels`] — the figure of `docs/kinematics.md`;
@@ -41,6 +42,7 @@ pub mod plant_trial;
 pub mod record;
 pub mod report;
 pub mod run;
+pub mod safety_page;
 pub mod scenario;
 pub mod scenes;
 pub mod score;

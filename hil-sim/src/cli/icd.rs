@@ -1,4 +1,5 @@
-//! `hil icd` and `hil supervisor`: write pages made from the firmware's tables, or check that they are up to date.
+//! `hil icd`, `hil supervisor` and `hil safety`: write pages made from the firmware's tables and the tests' names, or check that they are up
+//! to date.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,9 +7,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::{icd, supervisor_page};
+use crate::{icd, safety_page, supervisor_page};
 
-/// Arguments of `hil icd` and `hil supervisor`.
+/// Arguments of `hil icd`, `hil supervisor` and `hil safety`.
 #[derive(Debug, Args)]
 pub struct IcdArgs {
     /// Write nothing; fail when a file is not what would be written
@@ -27,6 +28,17 @@ pub fn main(args: &IcdArgs) -> ExitCode {
 /// Runs `hil supervisor`, with the same exit status.
 pub fn supervisor(args: &IcdArgs) -> ExitCode {
     write_or_check(args, &supervisor_page::files(), "supervisor")
+}
+
+/// Runs `hil safety`, with the same exit status; 1 too when a requirement's test is not there.
+pub fn safety(args: &IcdArgs) -> ExitCode {
+    match safety_page::files(&args.root) {
+        Ok(files) => write_or_check(args, &files, "safety"),
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn write_or_check(args: &IcdArgs, files: &[(&'static str, String)], command: &str) -> ExitCode {

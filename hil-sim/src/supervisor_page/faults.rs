@@ -47,9 +47,17 @@ travel is *stuck*, a living sensor's noise never stands still so long; one that 
 between 2 and 15 MPa, which moves a cylinder but stalls none. `DiagnosisParameters` holds all of these; its defaults follow from the valves'
 full speeds and the sensors' noise.
 
+";
+
+/// What the diagnosis cannot see.
+pub const NOT_SEEN: &str = "\
 Not seen here: motion slower than the margin; a sensor that keeps its noise but stands while the pressures are unknown (it looks like a stall); the
 loss of a noise narrower than three codes; an error of gain or offset that grows slower than a jump, as long as motion keeps its direction.
+";
+
+const TABLE: &str = "\
 Every length inside a validated stroke has a pose, so that `geometry_impossible` stands behind the range check as a second fence.
+[safety.md](safety.md) lists everything that is not detected, and the test of every requirement.
 
 ## The faults
 
@@ -165,7 +173,7 @@ const fn about(fault: Fault) -> About {
 
 /// The page.
 pub fn page() -> String {
-    let mut out = HEAD.to_owned();
+    let mut out = [HEAD, NOT_SEEN, TABLE].concat();
     for faults in Fault::ALL.chunk_by(|a, b| about(*a) == about(*b)) {
         let list = |of: &dyn Fn(&Fault) -> String| {
             let mut words: Vec<String> = faults.iter().map(of).collect();

@@ -4,7 +4,7 @@ mod drawing;
 mod faults;
 
 pub use drawing::drawing;
-pub use faults::page;
+pub use faults::{NOT_SEEN, page};
 
 /// Where the files stand, from the repository's root, and what they must hold.
 pub fn files() -> [(&'static str, String); 2] {
