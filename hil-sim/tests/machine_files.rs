@@ -75,7 +75,10 @@ fn with_value(text: &str, table: &str, key: &str, value: &str) -> String {
 
 /// Spoils every numeric line of a file in every way; how many lines that were.
 fn spoil_every_number(text: &str) -> usize {
-    let all = scalars(text);
+    // What only the hydraulic plant needs may be left out; tests/tests/plant_scenario.rs spoils it.
+    let optional = ["upper_inertia_kgm2", "bucket_width_m", "bucket_capacity_m3"];
+    let mut all = scalars(text);
+    all.retain(|scalar| !scalar.table.contains("hydraulics") && !optional.contains(&scalar.key.as_str()));
     for scalar in &all {
         let Scalar { line, table, key, value } = scalar;
         let field = format!("`{table}.{key}`");
@@ -137,7 +140,7 @@ fn frankel_is_in_inches_with_the_boom_cylinder_above_and_a_swing_cylinder() {
 #[test]
 fn every_numeric_line_of_every_machine_is_required_and_checked() {
     let lines: Vec<usize> = MACHINES.iter().map(|machine| spoil_every_number(&text(machine))).collect();
-    assert_eq!(lines, [39, 31, 27, 27]);
+    assert_eq!(lines, [39, 43, 27, 39]);
 }
 
 #[test]

@@ -76,7 +76,7 @@ impl DiagnosisParameters {
             run_on_s: 2.0,
             overshoot: 0.75,
             ring: 1.0,
-            coupling: 1.0,
+            coupling: 1.5,
             rebound: 0.5,
             supplied_pa: 2e6,
             stalled_pa: 15e6,
