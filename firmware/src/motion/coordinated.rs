@@ -3,7 +3,8 @@
 use kinematics_core::{Cylinders, Machine, Pose, Rotor};
 
 use super::Wanted;
-use super::law::{Law, UnderWay};
+use super::delays::Delays;
+use super::law::Law;
 use super::limits::Limits;
 use crate::fault::Fault;
 use crate::io::{Speeds, limited};
@@ -83,7 +84,7 @@ impl Coordination {
     #[inline(always)]
     pub(super) fn close(
         &mut self,
-        under_way: &mut UnderWay,
+        delays: &mut Delays,
         (ahead, lever): (&Ahead, f32),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
@@ -91,7 +92,7 @@ impl Coordination {
         let Ahead { start, lengths: then, feed_forward, swing } = ahead;
         let [first, turned] = swing.unwrap_or([0.0; 2]);
         let moved = [then.boom - start.boom, then.arm - start.arm, then.bucket - start.bucket];
-        let (turned, [boom, arm, bucket]) = self.law.reference(under_way, moved, swing.map(|_| turned));
+        let (turned, [boom, arm, bucket]) = self.law.reference(delays, moved, swing.map(|_| turned));
         let reference = Cylinders { boom: start.boom + boom, arm: start.arm + arm, bucket: start.bucket + bucket };
         let off = match swing {
             // The sine stands for the angle.

@@ -3,7 +3,7 @@
 use kinematics_core::{Cylinders, Machine};
 
 use super::Wanted;
-use super::delay::DelayLine;
+use super::delays::{Delays, preview_ticks};
 use super::tracker::{Tracker, for_each};
 use crate::TICKS_PER_S;
 use crate::dig::Dig;
@@ -22,9 +22,6 @@ enum Mode {
     Done,
 }
 
-/// Cylinder lengths seen ahead, until their time comes. What was computed once is not computed again.
-pub(super) type Seen = DelayLine<3>;
-
 /// The dig's follower.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DigFollower {
@@ -38,12 +35,16 @@ pub(super) struct DigFollower {
 }
 
 impl DigFollower {
-    /// `None` where the dig does not begin within reach and stroke. `seen` are the references seen ahead, kept until their time comes.
-    pub(super) fn new(p: &MotionParameters, machine: &Machine<f32>, dig: Dig<f32>, seen: &mut Seen) -> Option<Self> {
+    /// `None` where the dig does not begin within reach and stroke. References seen ahead are kept in `delays`.
+    pub(super) fn new(
+        p: &MotionParameters,
+        machine: &Machine<f32>,
+        dig: Dig<f32>,
+        delays: &mut Delays,
+    ) -> Option<Self> {
         let start = machine.tip_to_cylinders(&dig.at_tick(0)).ok()?;
-        let preview_ticks = (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
-        seen.set_delay(preview_ticks + 1);
-        seen.set_origin([start.boom, start.arm, start.bucket]);
+        let preview_ticks = preview_ticks(p);
+        delays.set_dig(preview_ticks, [start.boom, start.arm, start.bucket]);
         let dig_ticks = dig.ticks();
         Some(Self { dig, start, dig_ticks, preview_ticks, mode: Mode::Hold, tracker: Tracker::new(p) })
     }
@@ -59,20 +60,20 @@ impl DigFollower {
         &mut self,
         machine: &Machine<f32>,
         lengths: &Cylinders<f32>,
-        seen: &mut Seen,
+        delays: &mut Delays,
     ) -> Result<Wanted, Fault> {
         let hold = Wanted::hold(lengths);
         match self.mode {
             Mode::Done => Ok(hold),
             Mode::Hold => {
                 self.tracker.check_start(self.start, lengths)?;
-                self.step(machine, (0, self.start), lengths, seen)
+                self.step(machine, (0, self.start), lengths, delays)
             }
             Mode::Dig { elapsed, .. } if elapsed >= self.dig_ticks + self.preview_ticks => {
                 self.mode = Mode::Done;
                 Ok(hold)
             }
-            Mode::Dig { elapsed, ahead } => self.step(machine, (elapsed, ahead), lengths, seen),
+            Mode::Dig { elapsed, ahead } => self.step(machine, (elapsed, ahead), lengths, delays),
         }
     }
 
@@ -82,11 +83,11 @@ impl DigFollower {
         machine: &Machine<f32>,
         (elapsed, ahead): (u32, Cylinders<f32>),
         lengths: &Cylinders<f32>,
-        seen: &mut Seen,
+        delays: &mut Delays,
     ) -> Result<Wanted, Fault> {
         let dig_tick = elapsed.saturating_sub(self.preview_ticks);
         let next_ahead = machine.tip_to_cylinders(&self.dig.at_tick(elapsed + 1)).map_err(|_| Fault::Trajectory)?;
-        let [boom, arm, bucket] = seen.pass(elapsed + 1, [next_ahead.boom, next_ahead.arm, next_ahead.bucket]);
+        let [boom, arm, bucket] = delays.dig(elapsed + 1, [next_ahead.boom, next_ahead.arm, next_ahead.bucket]);
         let reference = Cylinders { boom, arm, bucket };
         self.mode = Mode::Dig { elapsed: elapsed + 1, ahead: next_ahead };
 

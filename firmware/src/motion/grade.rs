@@ -5,7 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor, Vec2};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
-use super::law::UnderWay;
+use super::delays::Delays;
 use super::resolve::resolve;
 use super::sum::Sum;
 use crate::TICK_S;
@@ -94,7 +94,7 @@ impl GradeFollower {
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        (shared, under_way): (&mut Coordination, &mut UnderWay),
+        (shared, delays): (&mut Coordination, &mut Delays),
         (arm_mps, slope): (f32, Option<Slope>),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
@@ -125,7 +125,7 @@ impl GradeFollower {
         self.led = Some(led);
         let feed_forward = rates.map(|rate| rate * factor);
         let ahead = Ahead { start: led.start, lengths: ahead, feed_forward, swing: None };
-        let mut wanted = shared.close(under_way, (&ahead, 1.0), pose, lengths)?;
+        let mut wanted = shared.close(delays, (&ahead, 1.0), pose, lengths)?;
         wanted.dig_tick = led.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }

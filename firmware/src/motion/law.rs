@@ -13,12 +13,12 @@
 //! among the corrections under way: at a steady speed the error itself goes to zero.
 
 use super::creep::Creep;
-use super::delay::DelayLine;
+use super::delays::{Delays, preview_ticks};
+use crate::TICK_S;
 use crate::fault::Fault;
 use crate::io::limited;
 use crate::law::LawParameters;
 use crate::parameters::MotionParameters;
-use crate::{TICK_S, TICKS_PER_S};
 
 /// An error is left alone up to the rest zone, and from then on up to so many of it.
 const LEAVES_REST: f32 = 3.0;
@@ -39,30 +39,6 @@ struct Channel {
 
 impl Channel {
     const NEW: Self = Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST };
-}
-
-/// Values of a preview: places ahead relative to the start, and corrections given. Filled in place, in memory of its own.
-#[derive(Clone, Debug)]
-pub(super) struct UnderWay {
-    cylinders: DelayLine<6, 128>,
-    swing: DelayLine<2, 128>,
-}
-
-impl UnderWay {
-    /// Nothing.
-    pub(super) const fn new() -> Self {
-        Self { cylinders: DelayLine::new(), swing: DelayLine::new() }
-    }
-
-    pub(super) fn set_delay(&mut self, motion: &MotionParameters) {
-        let ticks = preview_ticks(motion);
-        self.cylinders.set_delay(ticks);
-        self.swing.set_delay(ticks);
-    }
-}
-
-fn preview_ticks(motion: &MotionParameters) -> u32 {
-    (motion.preview_s * TICKS_PER_S as f32 + 0.5) as u32
 }
 
 /// The law's state. Swing, boom, arm, bucket in every array.
@@ -130,17 +106,17 @@ impl Law {
     #[inline(always)]
     pub(super) fn reference(
         &mut self,
-        under_way: &mut UnderWay,
+        delays: &mut Delays,
         [a, b, c]: [f32; 3],
         turned: Option<f32>,
     ) -> (f32, [f32; 3]) {
         self.tick = self.tick.saturating_add(1);
         let [swing, boom, arm, bucket] = &mut self.channels;
         let ahead = [a, b, c, boom.given, arm.given, bucket.given];
-        let [a, b, c, boom_then, arm_then, bucket_then] = under_way.cylinders.pass(self.tick, ahead);
+        let [a, b, c, boom_then, arm_then, bucket_then] = delays.cylinders(self.tick, ahead);
         (boom.given_then, arm.given_then, bucket.given_then) = (boom_then, arm_then, bucket_then);
         let turned = turned.map_or(0.0, |turned| {
-            let [turned, given_then] = under_way.swing.pass(self.tick, [turned, swing.given]);
+            let [turned, given_then] = delays.swing(self.tick, [turned, swing.given]);
             swing.given_then = given_then;
             turned
         });

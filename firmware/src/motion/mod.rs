@@ -4,6 +4,7 @@
 mod coordinated;
 mod creep;
 mod delay;
+mod delays;
 mod dig;
 mod grade;
 mod law;
@@ -32,8 +33,8 @@ use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
-use dig::{DigFollower, Seen};
-use law::UnderWay;
+use delays::{Delays, preview_ticks};
+use dig::DigFollower;
 use levers::Levers;
 use modes::Modes;
 use planned::MoveFollower;
@@ -58,15 +59,14 @@ impl Wanted {
     }
 }
 
-/// What following a dig or a planned move or reaching past obstacles needs of memory: about 16 KiB, filled in place. An image gives it as a
+/// What following a dig or a planned move or reaching past obstacles needs of memory: about 12 KiB, filled in place. An image gives it as a
 /// static, so that it never lies on the stack.
 #[derive(Clone, Debug)]
 pub struct Followers {
-    seen: Seen,
+    delays: Delays,
     planned: MoveFollower,
     /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
     reach: Option<Cell<ReachFollower>>,
-    under_way: UnderWay,
     /// The coordinated modes; the cell for the same reason.
     modes: Option<Cell<Modes>>,
 }
@@ -74,13 +74,13 @@ pub struct Followers {
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { seen: Seen::new(), planned: MoveFollower::new(), reach: None, under_way: UnderWay::new(), modes: None }
+        Self { delays: Delays::new(), planned: MoveFollower::new(), reach: None, modes: None }
     }
 
     /// Plans what the parameters ask for.
     fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
         if let Some(planned) = &p.planned_move {
-            self.planned.plan(&p.motion, machine, planned).map_err(ParameterError::Move)?;
+            self.planned.plan(&p.motion, machine, planned, &mut self.delays).map_err(ParameterError::Move)?;
         }
         self.plan_modes(p, machine)?;
         self.reach = None;
@@ -91,7 +91,7 @@ impl Followers {
     fn plan_modes(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
         self.modes = None;
         if let Some(law) = &p.motion.law {
-            self.under_way.set_delay(&p.motion);
+            self.delays.set_modes(preview_ticks(&p.motion));
             self.modes = Some(Cell::new(Modes::new(law, p, machine)?));
         }
         Ok(())
@@ -139,9 +139,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         mut followers: F,
     ) -> Result<Self, ParameterError> {
         followers.borrow_mut().plan(p, machine)?;
-        let seen = &mut followers.borrow_mut().seen;
+        let delays = &mut followers.borrow_mut().delays;
         Ok(Self {
-            dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, seen)),
+            dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, delays)),
             levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
             slew: p.motion.law.as_ref().map(Slew::new),
             followers,
@@ -157,7 +157,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         let followers = self.followers.borrow_mut();
         followers.plan(p, machine)?;
         let dig = p.dig.as_ref().map(Dig::new);
-        self.dig = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut followers.seen));
+        self.dig = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut followers.delays));
         Ok(())
     }
 
@@ -207,10 +207,13 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         let wanted = match intent.request {
             Request::Neutral => Wanted::hold(lengths),
             Request::Dig => {
-                let seen = &mut self.followers.borrow_mut().seen;
-                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, seen)?
+                let delays = &mut self.followers.borrow_mut().delays;
+                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, delays)?
             }
-            Request::Move => self.followers.borrow_mut().planned.follow(lengths)?,
+            Request::Move => {
+                let Followers { planned, delays, .. } = self.followers.borrow_mut();
+                planned.follow(lengths, delays)?
+            }
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;
                 reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
@@ -224,9 +227,9 @@ impl<F: BorrowMut<Followers>> Motion<F> {
             Request::TipVelocity | Request::Grade | Request::Path => {
                 let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
                 let arm_mps = self.levers.speeds(intent.levers).arm;
-                let Followers { under_way, modes, .. } = self.followers.borrow_mut();
+                let Followers { delays, modes, .. } = self.followers.borrow_mut();
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
-                modes.follow(machine, (intent, arm_mps, slope), (speeds, under_way), pose, lengths)?
+                modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };
         let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));

@@ -4,8 +4,9 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use super::Wanted;
 use super::coordinated::Coordination;
+use super::delays::Delays;
 use super::grade::GradeFollower;
-use super::law::{Law, UnderWay};
+use super::law::Law;
 use super::limits::Limits;
 use super::path::PathFollower;
 use super::tip_velocity::TipFollower;
@@ -57,12 +58,12 @@ impl Modes {
         &mut self,
         machine: &Machine<f32>,
         (intent, arm_mps, slope): (&Intent, f32, Option<Slope>),
-        (speeds, under_way): ([f32; 4], &mut UnderWay),
+        (speeds, delays): ([f32; 4], &mut Delays),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         self.shared.speeds = speeds;
-        let shared = (&mut self.shared, under_way);
+        let shared = (&mut self.shared, delays);
         match intent.request {
             Request::TipVelocity => self.tip.follow(machine, shared, &intent.tip, pose, lengths),
             Request::Grade => {

@@ -5,7 +5,7 @@ use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Real, Rotor};
 
 use super::Wanted;
 use super::coordinated::{Ahead, Coordination};
-use super::law::UnderWay;
+use super::delays::Delays;
 use super::profile::Profile;
 use super::resolve::resolve;
 use super::sum::Sum;
@@ -135,7 +135,7 @@ impl PathFollower {
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
-        (shared, under_way): (&mut Coordination, &mut UnderWay),
+        (shared, delays): (&mut Coordination, &mut Delays),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
@@ -183,7 +183,7 @@ impl PathFollower {
             feed_forward: rates.map(|rate| rate * factor),
             swing: self.swings.then_some([first_swing, swing_turns - first_swing]),
         };
-        let mut wanted = shared.close(under_way, (&ahead, swing_lever), pose, lengths)?;
+        let mut wanted = shared.close(delays, (&ahead, swing_lever), pose, lengths)?;
         wanted.dig_tick = self.elapsed.saturating_sub(shared.law.preview_ticks());
         Ok(wanted)
     }

@@ -5,19 +5,18 @@ use kinematics_core::planning::time_scaling::Pace;
 use kinematics_core::{Cylinders, Machine};
 
 use super::Wanted;
-use super::delay::DelayLine;
+use super::delays::{Delays, preview_ticks};
 use super::tracker::Tracker;
+use crate::TICK;
 use crate::fault::Fault;
 use crate::moves::{Move, MoveError, MoveParameters};
 use crate::parameters::MotionParameters;
-use crate::{TICK, TICKS_PER_S};
 
 /// The move's follower: about 7 KiB that are filled in place.
 #[derive(Clone, Debug)]
 pub(super) struct MoveFollower {
     planned: Move,
     ahead: Pace<f32>,
-    delay: DelayLine<1>,
     preview_ticks: u32,
     /// Ticks since the request; 0 before.
     elapsed: u32,
@@ -32,7 +31,6 @@ impl MoveFollower {
         Self {
             planned: Move::unplanned(),
             ahead: Pace::start(),
-            delay: DelayLine::new(),
             preview_ticks: 0,
             elapsed: 0,
             rested: 0,
@@ -46,10 +44,11 @@ impl MoveFollower {
         p: &MotionParameters,
         machine: &Machine<f32>,
         planned: &MoveParameters,
+        delays: &mut Delays,
     ) -> Result<(), MoveError> {
         self.planned.plan(machine, planned, TICK)?;
-        self.preview_ticks = (p.preview_s * TICKS_PER_S as f32 + 0.5) as u32;
-        self.delay.set_delay(self.preview_ticks);
+        self.preview_ticks = preview_ticks(p);
+        delays.set_move(self.preview_ticks);
         self.tracker = Tracker::new(p);
         Ok(())
     }
@@ -66,7 +65,7 @@ impl MoveFollower {
 
     /// Speeds for this tick of the move; at its end it holds.
     #[inline(never)]
-    pub(super) fn follow(&mut self, lengths: &Cylinders<f32>) -> Result<Wanted, Fault> {
+    pub(super) fn follow(&mut self, lengths: &Cylinders<f32>, delays: &mut Delays) -> Result<Wanted, Fault> {
         let path = self.planned.path.as_ref().ok_or(Fault::NotConfigured)?;
         if self.elapsed == 0 {
             self.tracker.check_start(path.at(0.0).lengths, lengths)?;
@@ -79,7 +78,7 @@ impl MoveFollower {
             self.rested += 1;
         }
         self.elapsed = self.elapsed.saturating_add(1);
-        let [then] = self.delay.pass(self.elapsed, [ahead.s]);
+        let [then] = delays.planned(self.elapsed, [ahead.s]);
         let reference = path.at(then).lengths;
         let [boom, arm, bucket] = path.at(ahead.s).slope.map(|slope| slope * ahead.rate);
         let speeds = self.tracker.speeds(Cylinders { boom, arm, bucket }, reference, lengths)?;
