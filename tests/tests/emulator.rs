@@ -54,14 +54,14 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         // cycles.
         let p = &scenario.parameters;
         let budget = match (&p.fence, &p.reach) {
-            (Some(_), _) => 4_300,
-            (None, Some(_)) => 4_200,
+            (Some(_), _) => 4_500,
+            (None, Some(_)) => 4_600,
             // Resolved rates, the delay lines and four spools that begin at once.
-            (None, None) if p.motion.law.is_some() => 4_200,
-            (None, None) => 3_200,
+            (None, None) if p.motion.law.is_some() => 5_100,
+            (None, None) => 3_600,
         };
         assert!(figures.instructions_per_tick.max <= budget, "{name}: {figures:?}");
-        assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 40 * 1024, "{name}: {figures:?}");
+        assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 52 * 1024, "{name}: {figures:?}");
         // 0 on a quiet computer. On a loaded one the emulator's virtual timer may come late: 8.5 µs were seen. A hundredth of the period.
         assert!(figures.tick_period_jitter_ns <= 10_000, "{name}: {figures:?}");
         compared += 1;
@@ -88,10 +88,10 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     scenario.duration_s = 3.0;
     let (_, figures) = on_emulator(&scenario, 1, &controller());
     println!("{figures:?}");
-    assert!(figures.instructions_per_tick.max <= 2_700);
-    assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 40 * 1024);
+    assert!(figures.instructions_per_tick.max <= 3_400);
+    assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 52 * 1024);
     // Most of it is construction: planners, validation, error texts. The STM32F405 has 1 MiB.
-    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 208 * 1024);
+    assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 320 * 1024);
     assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 22 * 1024);
 }
 
@@ -148,7 +148,7 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("coil_stage_dying") <= 1600);
     assert!(largest("coil_stage_off") <= 200);
     // Of all four actuators.
-    assert!(largest("diagnosis_moving") <= 280 && largest("diagnosis_at_rest") <= 280);
+    assert!(largest("diagnosis_moving") <= 380 && largest("diagnosis_at_rest") <= 380);
 }
 
 #[test]
