@@ -130,6 +130,6 @@ fn away_from_its_first_knot_a_path_is_refused_and_beyond_the_strokes_it_has_no_c
     rig.request = Request::Path;
     assert_eq!(rig.tick().fault, Some(Fault::NotAtStart));
     parameters.path.as_mut().expect("a path").knots[1].as_mut().expect("a knot").x_m = 2.0;
-    let error = Ecu::new(&parameters).err().expect("a refusal").to_string();
+    let error = Ecu::new(&parameters).expect_err("a refusal").to_string();
     assert!(error.contains("`path` on segment 0"), "{error}");
 }

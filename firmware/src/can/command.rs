@@ -28,7 +28,7 @@ pub struct ValveCommand {
 }
 
 impl ValveCommand {
-    /// As a lever for [`crate::Inputs::levers`]: ±32767 at full flow, extending positive, 0 when blocked; `None` for floating, which
+    /// As a lever for [`crate::Intent::levers`]: ±32767 at full flow, extending positive, 0 when blocked; `None` for floating, which
     /// no lever says.
     pub fn lever(&self) -> Option<i16> {
         let deflection = (self.flow * f32::from(i16::MAX) + 0.5) as i16;

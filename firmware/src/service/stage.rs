@@ -276,7 +276,7 @@ impl Service {
         self.answer.bucket = Some(mounted);
     }
 
-    /// What is to be kept, until [`Self::kept`].
+    /// What is to be kept, until it was kept.
     pub fn to_keep(&self) -> Option<&Found> {
         let due = self.answer.task == Task::Keep && self.answer.phase == Phase::UnderWay;
         self.answer.found.as_ref().filter(|_| due)
