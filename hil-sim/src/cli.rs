@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod calibrate;
+mod campaign;
 pub mod coil;
 pub mod effort;
 pub mod faults;

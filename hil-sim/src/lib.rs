@@ -15,6 +15,7 @@
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`score`] — the motion on plants that no tuning has seen;
+//! - [`shard`] — a part of many cases;
 //! - [`soak`] — hours of nominal work, and whether anything trips;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
@@ -27,6 +28,7 @@
 
 pub mod cli;
 pub mod coil_trial;
+mod dice;
 pub mod effort;
 pub mod elf;
 pub mod faults;
@@ -47,6 +49,7 @@ pub mod scenario;
 pub mod scenes;
 pub mod score;
 pub mod service;
+pub mod shard;
 pub mod soak;
 pub mod supervisor_page;
 mod toml_text;

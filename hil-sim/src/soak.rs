@@ -1,15 +1,15 @@
 //! Hours of nominal work: random operators on a healthy machine, and whether the controller ever stops it.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::faults::{Shard, working_scenario};
+use crate::dice::Dice;
+use crate::faults::working_scenario;
 use crate::machine_file::MachineFile;
 use crate::place::Host;
 use crate::run::Run;
 use crate::scenario::{LeverMove, Start, Task};
+use crate::shard::Shard;
 
 /// Length of one run, s: sixty make an hour.
 pub const RUN_S: f64 = 60.0;
@@ -40,18 +40,6 @@ pub struct Report {
     pub trips: Vec<Trip>,
 }
 
-struct Dice(ChaCha8Rng);
-
-impl Dice {
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    fn with_chance(&mut self, chance: f64) -> bool {
-        self.within(0.0, 1.0) < chance
-    }
-}
-
 /// Runs of a number of hours.
 pub fn runs(hours: u32) -> u64 {
     u64::from(hours) * (3600.0 / RUN_S) as u64
@@ -68,7 +56,7 @@ pub fn soak(
     shard: Shard,
     done: impl Fn() + Sync,
 ) -> Result<Report, String> {
-    let mine: Vec<u64> = (0..runs(hours)).filter(|run| run % shard.of == shard.index).collect();
+    let mine = shard.cases(runs(hours));
     let count = mine.len();
     let found: Vec<(f64, Option<Trip>)> = mine
         .into_par_iter()
@@ -90,7 +78,7 @@ pub fn soak(
 /// One operator: the way of the cylinders, m, and the first fault.
 fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>), String> {
     let case = seed ^ (run << 20) ^ 0x50_a4;
-    let mut dice = Dice(ChaCha8Rng::seed_from_u64(case));
+    let mut dice = Dice::new(case);
     let g = &machine.geometry;
     let mut place = |stroke: kinematics_core::geometry::Stroke| {
         stroke.min_m + dice.within(0.2, 0.8) * (stroke.max_m - stroke.min_m)

@@ -1,16 +1,16 @@
 //! `hil faults`: the fault campaign as a table.
 
+use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 use clap::Args;
 
-use super::print_with_json;
-use super::progress::Progress;
-use crate::faults::{Report, Shard, Spread, campaign, cases};
+use super::campaign::{conclude, counted, shard};
+use crate::faults::{Report, Spread, campaign, cases};
 use crate::machine_file::MachineFile;
+use crate::shard::Shard;
 
 /// Arguments of `hil faults`.
 #[derive(Debug, Args)]
@@ -32,46 +32,15 @@ pub struct FaultsArgs {
     json: Option<PathBuf>,
 }
 
-pub(super) fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-    match parts {
-        Some((index, of)) if index < of => Ok(Shard { index, of }),
-        _ => Err("it must be I/N with I below N, such as 0/4".to_owned()),
-    }
-}
-
-type AnyError = Box<dyn std::error::Error>;
-
 /// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 a bound did not hold or a healthy run tripped.
 pub fn main(args: &FaultsArgs) -> ExitCode {
-    let report = match run(args) {
-        Ok(report) => report,
-        Err(error) => {
-            eprintln!("error: {error}");
-            return ExitCode::from(2);
-        }
-    };
-    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
-        eprintln!("error: {error}");
-        return ExitCode::from(1);
-    }
-    ExitCode::from(if report.holds() { 0 } else { 3 })
+    conclude(run(args), table, args.json.as_deref(), Report::holds)
 }
 
-fn run(args: &FaultsArgs) -> Result<Report, AnyError> {
+fn run(args: &FaultsArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
     let mine = cases(args.seeds).div_ceil(args.shard.of);
-    let progress = Mutex::new(Progress::new(&machine.name, mine, 1.0, "runs"));
-    let report = campaign(&machine, args.seeds, args.seed, args.shard, || {
-        // A poisoned lock only means that another run has panicked: it will tell.
-        if let Ok(mut progress) = progress.lock() {
-            progress.step();
-        }
-    })?;
-    if let Ok(progress) = progress.into_inner() {
-        progress.finish();
-    }
-    Ok(report)
+    counted(&machine.name, mine, (1.0, "runs"), |done| campaign(&machine, args.seeds, args.seed, args.shard, done))
 }
 
 fn table(report: &Report) -> String {

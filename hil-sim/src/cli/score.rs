@@ -1,18 +1,16 @@
 //! `hil score`: the motion on plants that no tuning has seen.
 
+use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 use clap::Args;
 
-use super::faults::shard;
-use super::print_with_json;
-use super::progress::Progress;
-use crate::faults::Shard;
+use super::campaign::{conclude, counted, shard};
 use crate::machine_file::MachineFile;
 use crate::score::{LAW, Plants, Report, Setting, runs, score};
+use crate::shard::Shard;
 
 /// Arguments of `hil score`.
 #[derive(Debug, Args)]
@@ -40,25 +38,12 @@ pub struct ScoreArgs {
     json: Option<PathBuf>,
 }
 
-type AnyError = Box<dyn std::error::Error>;
-
 /// Runs the command; its exit status is 0, 1 it could not write, or 2 bad input.
 pub fn main(args: &ScoreArgs) -> ExitCode {
-    let report = match run(args) {
-        Ok(report) => report,
-        Err(error) => {
-            eprintln!("error: {error}");
-            return ExitCode::from(2);
-        }
-    };
-    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
-        eprintln!("error: {error}");
-        return ExitCode::from(1);
-    }
-    ExitCode::SUCCESS
+    conclude(run(args), table, args.json.as_deref(), |_| true)
 }
 
-fn run(args: &ScoreArgs) -> Result<Report, AnyError> {
+fn run(args: &ScoreArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
     let law = match &args.law {
         Some(file) => std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?,
@@ -66,17 +51,8 @@ fn run(args: &ScoreArgs) -> Result<Report, AnyError> {
     };
     let plants = if args.tuning { Plants::Tuning } else { Plants::HeldOut };
     let setting = Setting { seeds: args.seeds, plants, law, alone: args.alone };
-    let progress = Mutex::new(Progress::new(&machine.name, runs(&setting).div_ceil(args.shard.of), 1.0, "runs"));
-    let report = score(&machine, &setting, args.shard, || {
-        // A poisoned lock only means that another run has panicked: it will tell.
-        if let Ok(mut progress) = progress.lock() {
-            progress.step();
-        }
-    })?;
-    if let Ok(progress) = progress.into_inner() {
-        progress.finish();
-    }
-    Ok(report)
+    let mine = runs(&setting).div_ceil(args.shard.of);
+    counted(&machine.name, mine, (1.0, "runs"), |done| score(&machine, &setting, args.shard, done))
 }
 
 fn table(report: &Report) -> String {

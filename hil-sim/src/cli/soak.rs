@@ -1,17 +1,15 @@
 //! `hil soak`: hours of nominal work without a trip.
 
+use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 use clap::Args;
 
-use super::faults::shard;
-use super::print_with_json;
-use super::progress::Progress;
-use crate::faults::Shard;
+use super::campaign::{conclude, counted, shard};
 use crate::machine_file::MachineFile;
+use crate::shard::Shard;
 use crate::soak::{Report, runs, soak};
 
 /// Arguments of `hil soak`.
@@ -34,38 +32,15 @@ pub struct SoakArgs {
     json: Option<PathBuf>,
 }
 
-type AnyError = Box<dyn std::error::Error>;
-
 /// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 something tripped.
 pub fn main(args: &SoakArgs) -> ExitCode {
-    let report = match run(args) {
-        Ok(report) => report,
-        Err(error) => {
-            eprintln!("error: {error}");
-            return ExitCode::from(2);
-        }
-    };
-    if let Err(error) = print_with_json(&table(&report), &report, args.json.as_deref()) {
-        eprintln!("error: {error}");
-        return ExitCode::from(1);
-    }
-    ExitCode::from(if report.trips.is_empty() { 0 } else { 3 })
+    conclude(run(args), table, args.json.as_deref(), |report| report.trips.is_empty())
 }
 
-fn run(args: &SoakArgs) -> Result<Report, AnyError> {
+fn run(args: &SoakArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
     let minutes = runs(args.hours).div_ceil(args.shard.of);
-    let progress = Mutex::new(Progress::new(&machine.name, minutes, 60.0, "hours"));
-    let report = soak(&machine, args.hours, args.seed, args.shard, || {
-        // A poisoned lock only means that another run has panicked: it will tell.
-        if let Ok(mut progress) = progress.lock() {
-            progress.step();
-        }
-    })?;
-    if let Ok(progress) = progress.into_inner() {
-        progress.finish();
-    }
-    Ok(report)
+    counted(&machine.name, minutes, (60.0, "hours"), |done| soak(&machine, args.hours, args.seed, args.shard, done))
 }
 
 fn table(report: &Report) -> String {

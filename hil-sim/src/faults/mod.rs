@@ -9,25 +9,12 @@ mod trial;
 use rayon::prelude::*;
 
 use crate::machine_file::MachineFile;
+use crate::shard::Shard;
 
 pub use kind::{Bus, Cause, KINDS, Kind, Sensor};
 pub use situation::Situation;
 pub(crate) use situation::working as working_scenario;
 pub use tally::{Report, Row, Spread};
-
-/// A part of a campaign: case i belongs to shard i modulo `of`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// 0 to `of` − 1.
-    pub index: u64,
-    /// At least 1.
-    pub of: u64,
-}
-
-impl Shard {
-    /// Everything.
-    pub const WHOLE: Self = Self { index: 0, of: 1 };
-}
 
 /// Cases of a campaign: every fault, and nothing wrong, in every situation, `seeds` times.
 pub fn cases(seeds: u32) -> u64 {
@@ -45,7 +32,7 @@ pub fn campaign(
     shard: Shard,
     done: impl Fn() + Sync,
 ) -> Result<Report, String> {
-    let mine: Vec<u64> = (0..cases(seeds)).filter(|case| case % shard.of == shard.index).collect();
+    let mine = shard.cases(cases(seeds));
     let found: Vec<_> = mine
         .into_par_iter()
         .map(|index| {

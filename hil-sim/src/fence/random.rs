@@ -6,10 +6,9 @@ use kinematics_core::planning::limits::{HALF_SPACES, Limits, SPHERES};
 use kinematics_core::planning::outline::Outline;
 use kinematics_core::world::BasePlacement;
 use kinematics_core::{Cylinders, Machine, Rotor};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::Kind;
+use crate::dice::Dice;
 use crate::machine_file::MachineFile;
 use crate::plant::SwingDrive;
 use crate::scenario::{LeverMove, Scenario, Start, Task};
@@ -55,22 +54,6 @@ pub(super) struct Trials {
     outline: Outline<f64>,
     /// Between which swings a trial starts.
     swing_deg: [f64; 2],
-}
-
-struct Dice(ChaCha8Rng);
-
-impl Dice {
-    fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn with_chance(&mut self, chance: f64) -> bool {
-        self.unit() < chance
-    }
 }
 
 /// Full speeds of a 20 t excavator, as the time a whole stroke takes, s.
@@ -127,7 +110,7 @@ impl Trials {
 
     /// The trial of this index: a pose, a fence around it that it is clear of, and eight seconds of levers.
     pub(super) fn trial(&self, seed: u64, index: u32) -> Result<Trial, String> {
-        let mut dice = Dice(ChaCha8Rng::seed_from_u64(seed ^ (u64::from(index) << 32)));
+        let mut dice = Dice::new(seed ^ (u64::from(index) << 32));
         let mut scenario = self.base.clone();
         let (start, swing_range) = self.start(&mut dice);
         let moves = moves(&mut dice);

@@ -3,9 +3,8 @@
 use firmware::valve::coil_stage::CoilStageParameters;
 use firmware::valve::dither::DitherParameters;
 use firmware::valve::flow_map::{FlowParameters, KNOTS};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
+use crate::dice::Dice;
 use crate::plant::hydraulic::HydraulicModel;
 
 /// Errors of a calibration: gain, dead band as a share of full scale, dead time.
@@ -19,19 +18,10 @@ pub(super) struct Believed {
     pub(super) preview_s: f64,
 }
 
-/// −1 to 1.
-struct Dice(ChaCha8Rng);
-
-impl Dice {
-    fn either_way(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 /// The map of `plant`, each direction's gain and dead band and the dead time wrong by what a calibration may be.
 pub(super) fn calibrated(plant: &HydraulicModel, coils: &CoilStageParameters, seed: u64) -> Believed {
-    let mut dice = Dice(ChaCha8Rng::seed_from_u64(!seed));
-    believed(plant, coils, |limit| limit * dice.either_way())
+    let mut dice = Dice::new(!seed);
+    believed(plant, coils, |limit| limit * dice.within(-1.0, 1.0))
 }
 
 /// The map of `plant` without an error.

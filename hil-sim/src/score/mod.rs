@@ -7,11 +7,11 @@ mod task;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::faults::Shard;
 use crate::machine_file::MachineFile;
 use crate::place::Host;
 use crate::run::Run;
 use crate::scenario::Scenario;
+use crate::shard::Shard;
 use measure::Deviation;
 use task::Controller;
 
@@ -125,7 +125,7 @@ pub fn score(machine: &MachineFile, setting: &Setting, shard: Shard, done: impl 
         }
     }
     let cases = bases.len() as u64 * u64::from(setting.seeds);
-    let mine: Vec<u64> = (0..cases).filter(|case| case % shard.of == shard.index).collect();
+    let mine = shard.cases(cases);
     let results: Vec<Vec<Result1>> = mine
         .into_par_iter()
         .map(|case| {
