@@ -1,12 +1,11 @@
 //! Everything the application needs to know of a machine, in one record, validated once.
 
-use core::fmt;
+mod error;
 
+use kinematics_core::PinGeometry;
 use kinematics_core::geometry::Stroke;
-use kinematics_core::planning::avoid::AvoidError;
 use kinematics_core::planning::hull::Sphere;
 use kinematics_core::planning::reach::Target;
-use kinematics_core::{GeometryError, PinGeometry};
 use serde::{Deserialize, Serialize};
 
 use crate::apart::apart;
@@ -15,11 +14,13 @@ use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
 use crate::grade::GradeParameters;
 use crate::law::LawParameters;
-use crate::moves::{MoveError, MoveParameters, Pitch};
-use crate::path::{PathParameters, PathViolation};
+use crate::moves::{MoveParameters, Pitch};
+use crate::path::PathParameters;
 use crate::service::JogParameters;
-use crate::travel::Violation;
 use crate::valve::coil_stage::CoilStageParameters;
+
+pub use error::ParameterError;
+pub(crate) use error::{ordered, within};
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -148,76 +149,6 @@ pub struct ReachParameters {
     pub obstacles: [Option<Sphere<f64>>; 2],
     /// Speed limits of swing, boom, arm, bucket, rad/s.
     pub speeds_rad_s: [f64; 4],
-}
-
-/// What is wrong with a parameter record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ParameterError {
-    /// The geometry, by field.
-    Geometry(GeometryError),
-    /// A value outside its range.
-    OutOfRange {
-        /// The field.
-        field: &'static str,
-        /// What it holds.
-        value: f64,
-        /// Lowest and highest allowed.
-        range: [f64; 2],
-    },
-    /// Two values in the wrong order: the first must be below the second.
-    Order {
-        /// The field that must be smaller.
-        below: &'static str,
-        /// The field that must be larger.
-        above: &'static str,
-    },
-    /// The swing sensor reads a cylinder, but the geometry has none.
-    NoSwingCylinder,
-    /// The dig leaves reach or stroke.
-    Dig(Violation<f32>),
-    /// The move has no plan.
-    Move(MoveError),
-    /// What planning past obstacles lacks.
-    Avoid(AvoidError),
-    /// The path leaves reach or stroke.
-    Path(PathViolation),
-}
-
-impl From<GeometryError> for ParameterError {
-    fn from(error: GeometryError) -> Self {
-        Self::Geometry(error)
-    }
-}
-
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Geometry(error) => error.fmt(f),
-            Self::OutOfRange { field, value, range: [low, high] } => {
-                write!(f, "`{field}` is {value} but must be within {low}…{high}")
-            }
-            Self::Order { below, above } => write!(f, "`{below}` must be below `{above}`"),
-            Self::NoSwingCylinder => {
-                f.write_str("`swing_sensor` reads a swing cylinder, but the geometry has no `swing` pins")
-            }
-            Self::Move(error) => write!(f, "`move`: {error}"),
-            Self::Avoid(error) => write!(f, "`reach`: {error}"),
-            Self::Path(PathViolation { segment, error }) => write!(f, "`path` on segment {segment}: {error}"),
-            Self::Dig(Violation { time_s, error }) => write!(f, "`dig` at {time_s} s: {error}"),
-        }
-    }
-}
-
-impl core::error::Error for ParameterError {}
-
-pub(crate) fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
-    let [low, high] = range;
-    // Written so that NaN fails.
-    if value >= low && value <= high { Ok(()) } else { Err(ParameterError::OutOfRange { field, value, range }) }
-}
-
-pub(crate) fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
-    if below.1 < above.1 { Ok(()) } else { Err(ParameterError::Order { below: below.0, above: above.0 }) }
 }
 
 impl PositionSensor {
