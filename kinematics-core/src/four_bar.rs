@@ -27,7 +27,6 @@
 //! assert_eq!(Ok(linkage.length_unchecked(bucket)), linkage.length(bucket));
 //! ```
 
-use crate::planning::outline::CommonPin;
 use crate::triangle::{Closed, Moment, Side, Triangle};
 use crate::{Real, Rotor, Vec2};
 
@@ -57,6 +56,15 @@ pub struct FourBar<T> {
     squares: T,
     /// |H|, c and r, for messages.
     sides: [T; 3],
+}
+
+/// The common pin J seen from the bucket pin, in the arm frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CommonPin<T> {
+    /// J − P, m.
+    pub(crate) from_bucket_pin: Vec2<T>,
+    /// Its derivative by θ4, m/rad.
+    pub(crate) per_bucket: Vec2<T>,
 }
 
 /// The linkage at one cylinder length, away from the forward map's dead points: what rotor and rates share.
@@ -176,7 +184,8 @@ impl<T: Real> FourBar<T> {
             return Err(self.gap(square, self.sides[2]));
         }
         let s = Vec2::new(balance, discriminant.sqrt_of_magnitude()).complex_mul(k).scale(T::from_f64(0.5) / square);
-        Ok(CommonPin::new(self.pivot_from_pin, s, (self.pivot_from_pin + s).cross(p) / s.cross(k)))
+        let per_bucket = (self.pivot_from_pin + s).cross(p) / s.cross(k);
+        Ok(CommonPin { from_bucket_pin: self.pivot_from_pin + s, per_bucket: Vec2::new(-s.z, s.x).scale(per_bucket) })
     }
 
     /// Cylinder length (m) → moment arm dL/dθ4 (m/rad), by velocities along the coupler:
