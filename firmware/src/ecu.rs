@@ -1,40 +1,37 @@
-//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `mount` the change of the bucket.
+//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `errand` what is done beside the ticks.
 
-mod mount;
+mod errand;
 mod serve;
 
 use core::borrow::BorrowMut;
 
-use kinematics_core::{Cylinders, Machine, Pose};
+use kinematics_core::{Cylinders, Pose};
 
 use crate::command::Intent;
 use crate::diagnosis::Diagnosis;
-use crate::dig::Dig;
 use crate::fault::{Fault, State};
-use crate::fence::{Fence, Fenced, NO_CLEARANCE};
+use crate::fence::{Fenced, NO_CLEARANCE};
+use crate::fitted::Fitted;
 use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
-use crate::motion::{Followers, Motion, Wanted};
+use crate::motion::{Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::service::Service;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
-use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
 use crate::valve::coil_stage::{CoilStage, CoilsDriven};
 
-use mount::Buckets;
-
-/// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
-/// in an image, by reference.
+/// The controller: stages, the supervisor, and the last valid pose. `F` holds what is fitted to the bucket, by value or, as in an image,
+/// by reference.
 #[derive(Clone, Debug)]
-pub struct Ecu<F = Followers> {
-    machine: Machine<f32>,
+pub struct Ecu<F = Fitted> {
+    /// `None` while it is lent to have another bucket fitted.
+    fitted: Option<F>,
     sensing: Sensing,
     diagnosis: Diagnosis,
-    motion: Motion<F>,
-    fence: Option<Fence>,
+    motion: Motion,
     supervisor: Supervisor,
     valve: CoilStage,
     /// What the coils' currents showed in the last tick.
@@ -44,42 +41,37 @@ pub struct Ecu<F = Followers> {
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
     service: Service,
-    buckets: Option<Buckets>,
 }
 
 impl Ecu {
-    /// [`Ecu::with`] followers of its own.
+    /// [`Ecu::with`] a memory of its own.
     ///
     /// # Errors
     /// As there.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        Self::with(parameters, Followers::new())
+        Self::with(parameters, Fitted::new())
     }
 }
 
-impl<F: BorrowMut<Followers>> Ecu<F> {
+impl<F: BorrowMut<Fitted>> Ecu<F> {
     /// Validates the parameters, the dig's travel included, plans the move, and builds every stage.
     ///
     /// # Errors
     /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
-    pub fn with(parameters: &Parameters, followers: F) -> Result<Self, ParameterError> {
+    pub fn with(parameters: &Parameters, mut fitted: F) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
-        let machine = Machine::new(&p.geometry)?;
-        let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, [&p.supply, &p.sensor_supply], &machine)
+        fitted.borrow_mut().fit(p)?;
+        let supplies = [&p.supply, &p.sensor_supply];
+        let parts = fitted.borrow_mut().parts();
+        let sensing = parts
+            .and_then(|(machine, ..)| Sensing::new(&p.swing_sensor, &p.cylinder_sensors, supplies, machine))
             .ok_or(ParameterError::NoSwingCylinder)?;
-        let dig = p.dig.as_ref().map(Dig::new);
-        if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
-            return Err(ParameterError::Dig(violation));
-        }
-        let fence =
-            p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.coils.valves())).transpose()?;
         Ok(Self {
             diagnosis: Diagnosis::new(&p.diagnosis, sensing.views()),
             sensing,
-            motion: Motion::new(p, &machine, dig, followers)?,
-            fence,
-            machine,
+            motion: Motion::new(p),
+            fitted: Some(fitted),
             supervisor: Supervisor::new(&p.supply, &p.sensor_supply),
             valve: CoilStage::new(&p.coils)?,
             coil_fault: None,
@@ -88,7 +80,6 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             lengths: NO_LENGTHS,
             pose: NO_POSE,
             service: Service::new(p),
-            buckets: None,
         })
     }
 
@@ -128,7 +119,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             (Gate::Open, Ok(wanted)) => wanted,
             _ => nothing,
         };
-        if let Some(fence) = &mut self.fence {
+        if let Some((_, Some(fence), _)) = self.fitted.as_mut().and_then(|fitted| fitted.borrow_mut().parts()) {
             fence.sent(&fenced.speeds);
         }
         self.diagnosis.sent(&fenced.speeds);
@@ -188,29 +179,30 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let running = self.supervisor.state() == State::Running;
         // Without a fresh command nothing is wanted, and the supervisor stops what runs.
         let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
+        // Nothing is lent but in service.
+        let fitted = self.fitted.as_mut().map(F::borrow_mut).ok_or(Fault::NotConfigured)?;
+        let (machine, mut fence, followers) = fitted.parts().ok_or(Fault::NotConfigured)?;
         let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let suspected = self.diagnosis.fault();
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
                 return Err(fault);
             }
-            let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
+            let pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
             (self.lengths, self.pose) = (sensed.lengths, pose);
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
                 let asked = (&intent, inputs.slope);
-                self.motion.follow(&self.machine, running, asked, &pose, &sensed.lengths)?
+                self.motion.follow((machine, followers), running, asked, &pose, &sensed.lengths)?
             };
-            let fenced = match &mut self.fence {
-                Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
+            let fenced = match &mut fence {
+                Some(fence) => fence.limit(machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },
             };
             Ok((wanted, fenced))
         });
         if result.is_err() {
             self.motion.reset();
-            if let Some(fence) = &mut self.fence {
-                fence.reset();
-            }
+            fitted.reset();
         }
         result
     }

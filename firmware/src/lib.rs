@@ -23,6 +23,7 @@ pub mod dig;
 mod ecu;
 pub mod fault;
 pub mod fence;
+mod fitted;
 pub mod frame;
 mod freeze_frame;
 pub mod grade;
@@ -46,9 +47,9 @@ pub mod valve;
 pub use command::Intent;
 pub use ecu::Ecu;
 pub use fault::{Fault, State};
+pub use fitted::Fitted;
 pub use freeze_frame::FreezeFrame;
 pub use io::{Inputs, Outputs, Request};
-pub use motion::Followers;
 pub use parameters::{ParameterError, Parameters};
 pub use supervisor::SelfTest;
 

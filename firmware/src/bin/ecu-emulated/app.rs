@@ -10,7 +10,7 @@ mod app {
     use firmware::frame::OUTPUT_BYTES;
     use firmware::simulated::link::{KIND_END, NAME, RECORD_BYTES, REPLY_BYTES};
     use firmware::simulated::{PIN_BYTES, SimulatedBoard, WIRE_BYTES, Wires};
-    use firmware::{Followers, Parameters, SelfTest};
+    use firmware::{Fitted, Parameters, SelfTest};
     use stm32f4::stm32f405::TIM2;
 
     /// The emulator clocks TIM2 at 1 GHz, and starts over after as many counts as the register says (the chip: one more).
@@ -23,15 +23,15 @@ mod app {
     struct Local {
         link: Link,
         board: SimulatedBoard,
-        controller: Controller<&'static mut Followers>,
+        controller: Controller<&'static mut Fitted>,
         stopwatch: Stopwatch,
         timer: TIM2,
     }
 
-    #[init(local = [followers: Followers = Followers::new()])]
+    #[init(local = [fitted: Fitted = Fitted::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let stopwatch = Stopwatch::start(cx.device.TIM5);
-        let Ok((link, controller)) = connect(cx.local.followers) else { fail() };
+        let Ok((link, controller)) = connect(cx.local.fitted) else { fail() };
         let Ok(board) = SimulatedBoard::new() else { fail() };
         let timer = cx.device.TIM2;
         timer.arr().write(|w| w.arr().set(PERIOD_COUNTS));
@@ -41,7 +41,7 @@ mod app {
     }
 
     /// Takes the parameter record and answers with the error's text, empty when the application was built.
-    fn connect(followers: &'static mut Followers) -> Result<(Link, Controller<&'static mut Followers>), LinkLost> {
+    fn connect(fitted: &'static mut Fitted) -> Result<(Link, Controller<&'static mut Fitted>), LinkLost> {
         let mut link = Link::open()?;
         let mut length = [0; 4];
         link.read(&mut length)?;
@@ -50,7 +50,7 @@ mod app {
         link.read(record)?;
         let mut text = Text::default();
         let built = match postcard::from_bytes::<Parameters>(record) {
-            Ok(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers)
+            Ok(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, fitted)
                 .map(|mut controller| {
                     // The emulated board has none of the parts that the self-test tries.
                     controller.self_tested(&SelfTest::PASSED);
@@ -88,7 +88,7 @@ mod app {
     fn exchange(
         link: &mut Link,
         board: &mut SimulatedBoard,
-        controller: &mut Controller<&'static mut Followers>,
+        controller: &mut Controller<&'static mut Fitted>,
         stopwatch: &Stopwatch,
         started_ns: u32,
     ) -> Result<(), LinkLost> {
