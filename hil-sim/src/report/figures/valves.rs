@@ -8,8 +8,8 @@ use super::{Axis, Figure, Height, Key, Look, Mark, Panel, colours, values};
 use crate::report::series::over_time;
 use crate::run::{Log, Row};
 
-const CURRENT: Look = Look::Line(colours::BLUE, 1.3);
-const WINDING: Look = Look::Line(colours::SKY, 1.3);
+const CURRENT: Look = Look::Line(colours::BLUE, 2.4);
+const WINDING: Look = Look::Line(colours::ORANGE, 1.0);
 
 /// The figure, over the whole run from 0 until `until_s`; spools that never get any current are left out.
 pub(in crate::report) fn figure(log: &Log, until_s: f64) -> Figure {
@@ -30,8 +30,8 @@ pub(in crate::report) fn figure(log: &Log, until_s: f64) -> Figure {
         title: "Coil currents",
         caption: format!(
             "Currents of each spool, the extending solenoid upwards, the retracting one downwards: what the controller asks \
-             for, and what truly flows in the simulated windings, dither included. Current flows only while the supervisor is in \
-             the state running.{idle}"
+             for, and what truly flows in the simulated windings, looked at every 5 ms. Current flows only while the supervisor \
+             is in the state running.{idle}"
         ),
         legend: [Key { look: CURRENT, text: "asked" }, Key { look: WINDING, text: "in the windings" }, RUNNING_KEY]
             .into_iter()
@@ -58,8 +58,8 @@ fn panel(log: &Log, until_s: f64, spool: usize, named: bool) -> Panel {
     marks.extend(moments(log, &y, named));
     let zero = vec![vec![(0.0, 0.0), (until_s, 0.0)]];
     marks.push(Mark::Lines(zero, Look::Line(colours::GREY, 1.0)));
-    marks.push(Mark::Lines(winding, WINDING));
     marks.push(Mark::Lines(current, CURRENT));
+    marks.push(Mark::Lines(winding, WINDING));
     let title = format!("{} spool", capital(SPOOLS[spool]));
     Panel { title, x: Axis::new("", 0.0, until_s), y, height: Height::Pixels(120.0), marks }
 }

@@ -60,6 +60,8 @@ pub(super) fn draw(seen: &Seen<'_>, linkage: &Linkage, tracks: &mut Tracks) -> S
     out += &through("rim", &[pin, knee, elbow, wrist], Some(2.0 * shape.arm_half_width_m));
     out += &through("barrel", &[wrist, teeth], Some(2.0 * shape.bucket_half_width_m));
     out += &dot("teeth", teeth, 0.01 * reach_m);
-    let svg = frame.svg("above", "From above", &out);
-    format!("<p class=\"caption\">From above: x forward, y to the left, metres from the swing axis.</p>\n{svg}")
+    let svg = frame.svg("above", "From above", 0.045, &out);
+    format!(
+        "<div class=\"from-above\"><p class=\"caption\">From above: x forward, y to the left, metres from the swing axis.</p>\n{svg}</div>"
+    )
 }

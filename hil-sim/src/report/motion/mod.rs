@@ -57,7 +57,7 @@ pub(super) fn stage(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> i
         "<section class=\"stage\" aria-label=\"The machine moving\">\n{side}\
          <div class=\"controls\"><button id=\"play\" type=\"button\">Play</button>\
          <input id=\"moment\" type=\"range\" min=\"0\" max=\"{last}\" value=\"0\" aria-label=\"Moment of the run\">\
-         <label>Speed <select id=\"speed\">{speeds}</select></label></div>\n{readouts}{above}\
+         <label>Speed <select id=\"speed\">{speeds}</select></label></div>\n<div class=\"under\">{readouts}{above}</div>\n\
          <noscript><p>The script of this page is switched off: the machine stays out of sight.</p></noscript>\n\
          <script id=\"motion\" type=\"application/json\">{data}</script>\n</section>\n",
         readouts = readouts(&seen)
@@ -74,7 +74,7 @@ struct Seen<'a> {
     asked: Vec<Option<Point>>,
 }
 
-/// The path the tip should take: a dig's or a plane's whole, of anything else what was followed.
+/// The path the tip should take: a dig's whole, of anything else what was followed.
 fn asked(scenario: &Scenario, log: &Log) -> Vec<Option<Point>> {
     match &scenario.parameters.dig {
         Some(dig) => super::run::reference(&Dig::new(dig)),

@@ -30,26 +30,28 @@ impl Frame {
         self.x[1] - self.x[0]
     }
 
-    /// The drawing: a grid of metres, then `still` and `moving`, which have y upwards.
-    pub(super) fn svg(&self, class: &str, label: &str, inside: &str) -> String {
+    /// The drawing: a grid of metres with `inside` on it, which has y upwards; letters as high as this share of its width.
+    pub(super) fn svg(&self, class: &str, label: &str, letters: f64, inside: &str) -> String {
         let (left, top, wide, high) = (mm(self.x[0]), mm(-self.y[1]), mm(self.wide()), mm(self.y[1] - self.y[0]));
-        let letter = 0.022 * self.wide();
+        let letter = letters * self.wide();
         let (mut lines, mut numbers) = (String::new(), String::new());
         let every = if self.wide() > 9.0 { 2 } else { 1 };
         for metre in self.x[0].ceil() as i32..=self.x[1].floor() as i32 {
             let x = metre * 1000;
             // Writing to a string cannot fail.
             let _ = write!(lines, "M{x} {}V{}", -top, -top - high);
-            if metre % every == 0 {
-                let _ = write!(numbers, "<text x=\"{x}\" y=\"{}\">{metre}</text>", top + high - mm(0.4 * letter));
+            if metre % every == 0 && f64::from(metre) - self.x[0] > 2.0 * letter {
+                let _ =
+                    write!(numbers, "<text x=\"{x}\" y=\"{}\">{}</text>", top + high - mm(0.4 * letter), number(metre));
             }
         }
         for metre in self.y[0].ceil() as i32..=self.y[1].floor() as i32 {
             let z = metre * 1000;
             let _ = write!(lines, "M{left} {z}H{}", left + wide);
-            if metre % every == 0 {
+            let room = f64::from(metre) - self.y[0] > 2.0 * letter && self.y[1] - f64::from(metre) > letter;
+            if metre % every == 0 && room {
                 let (x, y) = (left + mm(0.7 * letter), mm(0.35 * letter) - z);
-                let _ = write!(numbers, "<text x=\"{x}\" y=\"{y}\">{metre}</text>");
+                let _ = write!(numbers, "<text x=\"{x}\" y=\"{y}\">{}</text>", number(metre));
             }
         }
         format!(
@@ -59,6 +61,10 @@ impl Frame {
             mm(letter)
         )
     }
+}
+
+fn number(metre: i32) -> String {
+    metre.to_string().replace('-', "−")
 }
 
 /// A line that stays.

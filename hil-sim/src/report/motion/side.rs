@@ -11,18 +11,20 @@ pub(super) fn draw(seen: &Seen<'_>, linkage: &Linkage, tracks: &mut Tracks) -> S
     let ground_m = -seen.scenario.machine.boom_pin_height_m;
     let frame = frame(seen, linkage, tracks, ground_m, 0.05 * reach_m);
     let mut out = ground(seen, &frame, ground_m, reach_m);
-    out += &still("asked", seen.asked.iter().copied(), frame.x[1] / 800.0);
-    out += "<path class=\"ahead\" id=\"ahead\"/>\n<path class=\"done\" id=\"done\"/>\n";
     out += &machine(seen, linkage);
+    // In front: a path through soil lies inside the bucket.
+    out += "<path class=\"ahead\" id=\"ahead\"/>\n<path class=\"done\" id=\"done\"/>\n";
+    out += &still("asked", seen.asked.iter().copied(), frame.x[1] / 800.0);
+    out += &dot("teeth", linkage.teeth, 0.01 * reach_m);
     out += &limits(seen, &frame, tracks);
     if seen.log.rows.iter().any(|row| row.reference.is_some()) {
         out += &format!("<circle class=\"wanted\" id=\"wanted\" r=\"{}\"/>\n", (8.0 * reach_m) as i32);
     }
-    let svg = frame.svg("side", "From the side, turning with the swing", &out);
+    let svg = frame.svg("side", "From the side, turning with the swing", 0.022, &out);
     let legend = legend(seen);
     format!(
         "<h2>The machine moving</h2>\n<p class=\"caption\">From the side, turning with the swing; metres from the swing axis and over the \
-         boom pin. Links, cylinders and their thickness are those of the machine file.</p>\n{svg}{legend}"
+         boom pin. Links, cylinders and their thickness are those of the machine file; the body is only hinted at.</p>\n{svg}{legend}"
     )
 }
 
@@ -60,7 +62,9 @@ fn machine(seen: &Seen<'_>, linkage: &Linkage) -> String {
     // Each body twice: a dark one, and a slightly thinner light one in it.
     for (class, less) in [("rim", 0.0), ("body-of", 0.06)] {
         let wide = |wide: f64| Some(wide * (1.0 - less) - 0.4 * less * link);
-        out += &area(class, &[l.boom_pin, boom.eye, arm.base, l.arm_pin], wide(0.5 * thin));
+        for pin in [boom.eye, arm.base] {
+            out += &area(class, &[l.boom_pin, pin, l.arm_pin], wide(0.5 * thin));
+        }
         out += &through(class, &[l.boom_pin, l.knee, l.arm_pin], wide(thick));
     }
     for (class, less) in [("rim", 0.0), ("body-of", 0.06)] {
@@ -75,8 +79,7 @@ fn machine(seen: &Seen<'_>, linkage: &Linkage) -> String {
         out += &through("rod", &[cylinder.base, cylinder.eye], Some(0.5 * tube));
         out += &through(&format!("barrel of-{name}"), &[cylinder.base, cylinder.barrel], Some(tube));
     }
-    out += &l.pins().into_iter().map(|pin| dot("pin", pin, 0.35 * link)).collect::<String>();
-    out + &dot("teeth", l.teeth, 0.5 * link)
+    out + &l.pins().into_iter().map(|pin| dot("pin", pin, 0.35 * link)).collect::<String>()
 }
 
 /// Fence, obstacles and target where the swing's plane meets them.
@@ -114,6 +117,9 @@ fn legend(seen: &Seen<'_>) -> String {
     keys.push(("soil", soil));
     if !seen.limits.planes.is_empty() || !seen.limits.balls.is_empty() {
         keys.push(("limit", "to keep clear of, where the swing points"));
+    }
+    if !seen.limits.balls.is_empty() {
+        keys.push(("elsewhere", "an obstacle at another swing"));
     }
     if seen.limits.target_m.is_some() {
         keys.push(("target", "target"));
