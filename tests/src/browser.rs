@@ -20,19 +20,18 @@ pub struct Seen {
     pub said: String,
 }
 
-/// Opens the page with the probe in it, in a folder of this name; virtual time, so that a loaded computer makes no difference.
+/// Opens the page with the probe in it, in a folder of its own; virtual time, so that a loaded computer makes no difference.
 ///
 /// # Panics
 /// Without Chromium, or when it fails or does not end.
-pub fn open(name: &str, page: &str) -> Seen {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages").join(name);
-    let _old = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder of the test's own");
+pub fn open(folder: &Path, page: &str) -> Seen {
+    let _old = fs::remove_dir_all(folder);
+    fs::create_dir_all(folder).expect("a folder of the test's own");
     assert!(page.contains("<style>"), "the probe's place");
     let page = page.replacen("<style>", &format!("<script>{PROBE}</script>\n<style>"), 1);
     let [file, document, said] = ["page.html", "document.html", "said.txt"].map(|file| folder.join(file));
     fs::write(&file, page).expect("the page is written");
-    run(&folder, &file, &document, &said);
+    run(folder, &file, &document, &said);
     let read = |file: &PathBuf| String::from_utf8_lossy(&fs::read(file).expect("Chromium's output")).into_owned();
     Seen { document: read(&document), said: read(&said) }
 }

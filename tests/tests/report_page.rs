@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cross_tests::browser::{Seen, open};
+use cross_tests::browser::{self, Seen};
 use cross_tests::rig::scenario;
 use hil_sim::place::Host;
 use hil_sim::report;
@@ -18,6 +18,10 @@ fn page(name: &str) -> String {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reports").join(name);
     report::write(&scenario, &log, &Summary::of(&scenario, "host", 1, &log, None), &folder).expect("written");
     std::fs::read_to_string(folder.join("report.html")).expect("a page")
+}
+
+fn open(name: &str, page: &str) -> Seen {
+    browser::open(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages").join(name), page)
 }
 
 /// What the probe left in the document.
