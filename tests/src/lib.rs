@@ -7,6 +7,7 @@
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`differences`]: derivatives of the oracle by central differences;
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
+//! - [`handled`]: bytes from outside, for the fuzz targets and the test of their corpus;
 //! - [`healthy`]: healthy actuators with noise and delay, for the diagnosis;
 //! - [`jacobians`]: Jacobians with known singular values;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata;
@@ -21,6 +22,7 @@ pub mod browser;
 pub mod can;
 pub mod differences;
 pub mod golden;
+pub mod handled;
 pub mod healthy;
 pub mod jacobians;
 pub mod machines;

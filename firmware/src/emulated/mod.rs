@@ -1,12 +1,14 @@
-//! What the images for the emulator share: the link to the harness, the stopwatch, the end.
+//! What the images for the emulator share: the link to the harness, the controller in conversation with it, the stopwatch, the end.
 #![allow(dead_code)] // each image uses its part
 
+pub(crate) mod exit;
 pub(crate) mod link;
+#[cfg(feature = "simulated")]
+pub(crate) mod session;
 pub(crate) mod stack;
 pub(crate) mod stopwatch;
 
-use core::panic::PanicInfo;
-use cortex_m_semihosting::{debug, heprintln};
+use cortex_m_semihosting::debug;
 
 /// Ends the emulator with a failure status.
 pub(crate) fn fail() -> ! {
@@ -22,10 +24,4 @@ pub(crate) fn succeed() -> ! {
     loop {
         cortex_m::asm::wfi();
     }
-}
-
-#[panic_handler]
-fn panic(info: &PanicInfo<'_>) -> ! {
-    heprintln!("panic in the emulated image: {}", info);
-    fail()
 }

@@ -7,10 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use firmware::frame::OUTPUT_BYTES;
-use firmware::simulated::link::{KIND_END, KIND_TICK, REPLY_BYTES};
-use firmware::simulated::{PIN_BYTES, Pins, WIRE_BYTES, Wires};
-use firmware::{Outputs, Parameters};
+use firmware::Parameters;
+use firmware::simulated::Wires;
+use firmware::simulated::link::{self, REFUSAL_BYTES, REPLY_BYTES, Request, Spoil, Zone};
 
 use super::one_core::OneCore;
 use super::{Image, Place, PlaceError, Reply, Timing};
@@ -65,7 +64,13 @@ impl Emulator {
         emulator.write(&record)?;
         let mut length = [0; 4];
         emulator.read(&mut length)?;
-        let mut refusal = vec![0; u32::from_le_bytes(length) as usize];
+        let length = u32::from_le_bytes(length);
+        // An image that is no controller says anything; it is not believed to have gigabytes to say.
+        let length = usize::try_from(length).ok().filter(|&length| length <= REFUSAL_BYTES);
+        let Some(length) = length else {
+            return Err(emulator.lost("its first word is no length of a text".to_owned()));
+        };
+        let mut refusal = vec![0; length];
         emulator.read(&mut refusal)?;
         if refusal.is_empty() {
             Ok(emulator)
@@ -87,20 +92,48 @@ impl Emulator {
         }
     }
 
-    /// Ends the run; gives the deepest use of the stack, bytes.
+    /// Ends the run; gives the deepest use of the stack, bytes, or of `spoilt-emulated` the most instructions of its watch in a tick.
     ///
     /// # Errors
     /// The emulator was lost.
     pub fn finish(mut self) -> Result<u32, PlaceError> {
-        let mut end = [0; 1 + WIRE_BYTES];
-        end[0] = KIND_END;
-        self.write(&end)?;
+        self.write(&Request::End.to_bytes())?;
         let mut stack = [0; 4];
         self.read(&mut stack)?;
         match self.ended() {
             Some(status) if status.success() => Ok(u32::from_le_bytes(stack)),
             other => Err(self.lost(format!("it ended with {other:?}"))),
         }
+    }
+
+    /// Breaks something in the image before its next tick, and says where it was; only the image `spoilt-emulated` can.
+    ///
+    /// # Errors
+    /// The emulator was lost.
+    pub fn spoil(&mut self, spoil: Spoil) -> Result<Zone, PlaceError> {
+        self.write(&Request::Spoil(spoil).to_bytes())?;
+        let mut code = [0; 4];
+        self.read(&mut code)?;
+        let code = u32::from_le_bytes(code);
+        Zone::from_code(code).ok_or_else(|| self.lost(format!("{code} is no zone of its memory")))
+    }
+
+    /// A tick, its reply as the bytes that came.
+    ///
+    /// # Errors
+    /// The emulator was lost.
+    pub fn exchange(&mut self, wires: &Wires) -> Result<[u8; REPLY_BYTES], PlaceError> {
+        self.guard.alive();
+        self.write(&Request::Tick(*wires).to_bytes())?;
+        let mut reply = [0; REPLY_BYTES];
+        self.read(&mut reply)?;
+        Ok(reply)
+    }
+
+    /// How the emulator ended, when it has: its exit code, or 134 when it aborted, which it does when the core locks up.
+    pub fn exit_code(&self) -> Option<i32> {
+        const ABORTED: i32 = 134;
+        self.ended().map(|status| status.code().unwrap_or(ABORTED))
     }
 
     fn child(&self) -> MutexGuard<'_, Child> {
@@ -147,19 +180,9 @@ impl Emulator {
 
 impl Place for Emulator {
     fn tick(&mut self, wires: &Wires) -> Result<Reply, PlaceError> {
-        self.guard.alive();
-        let mut message = [KIND_TICK; 1 + WIRE_BYTES];
-        message[1..].copy_from_slice(&wires.to_bytes());
-        self.write(&message)?;
-        let mut reply = [0; REPLY_BYTES];
-        self.read(&mut reply)?;
-        let (frame, rest) = reply.split_at(OUTPUT_BYTES);
-        let (pins, measured) = rest.split_at(PIN_BYTES);
-        let (started, instructions) = measured.split_at(4);
-        let word = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().expect("split at four"));
-        let outputs = Outputs::from_bytes(frame.try_into().expect("split at the frame's size"))?;
-        let timing = Timing::Emulator { started_ns: word(started), instructions: word(instructions) };
-        let pins = Pins::from_bytes(pins.first_chunk().expect("the reply holds it"))?;
+        let reply = self.exchange(wires)?;
+        let link::Reply { outputs, pins, started_ns, instructions } = link::Reply::from_bytes(&reply)?;
+        let timing = Timing::Emulator { started_ns, instructions };
         Ok(Reply { outputs, pins, timing })
     }
 }

@@ -69,10 +69,7 @@ pub enum PlaceError {
         /// What it printed.
         said: String,
     },
-    /// The image answered with something that is no frame.
-    #[error("the image's answer is no frame: {0}")]
-    Frame(#[from] firmware::frame::FrameError),
-    /// The image's pins are none.
-    #[error("the image's pins are none: {0}")]
-    Pins(#[from] firmware::simulated::WireError),
+    /// The image's answer is none.
+    #[error("the image's answer is none: {0}")]
+    Reply(#[from] firmware::simulated::link::ReplyError),
 }

@@ -114,8 +114,11 @@ impl Scenario {
         Self::of_text(text, machine, Some(start))
     }
 
-    /// The same; without a start the text says where it is.
-    pub(crate) fn of_text(text: &str, machine: MachineFile, start: Option<Start>) -> Result<Self, String> {
+    /// A scenario from text, of this machine in place of the one it names; without a start the text says where it is.
+    ///
+    /// # Errors
+    /// The field at fault and its allowed range.
+    pub fn of_text(text: &str, machine: MachineFile, start: Option<Start>) -> Result<Self, String> {
         let mut scenario = file::parse(text)?;
         check::ranges(&scenario)?;
         scenario.start = start.or(scenario.start);

@@ -10,6 +10,9 @@ mod diagnosis;
 #[cfg(target_os = "none")]
 #[path = "../../emulated/mod.rs"]
 mod emulated;
+#[cfg(target_os = "none")]
+#[path = "../../emulated/panic.rs"]
+mod panic;
 
 #[cfg(target_os = "none")]
 mod fence;

@@ -6,6 +6,9 @@ mod app;
 #[cfg(target_os = "none")]
 #[path = "../../emulated/mod.rs"]
 mod emulated;
+#[cfg(target_os = "none")]
+#[path = "../../emulated/panic.rs"]
+mod panic;
 
 #[cfg(not(target_os = "none"))]
 fn main() {

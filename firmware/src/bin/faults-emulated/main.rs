@@ -5,6 +5,10 @@
 #[cfg(target_os = "none")]
 mod app;
 #[cfg(target_os = "none")]
+#[path = "../../emulated/exit.rs"]
+#[allow(dead_code)] // it has no watchdog
+mod exit;
+#[cfg(target_os = "none")]
 #[path = "../ecu-stm32f405/flash.rs"]
 mod flash;
 #[cfg(target_os = "none")]
@@ -16,10 +20,11 @@ mod link;
 mod safe_state;
 #[cfg(target_os = "none")]
 #[path = "../../target/mod.rs"]
+#[allow(dead_code)] // it has no application to watch over
 mod target;
 
 #[cfg(target_os = "none")]
-use app::rest;
+use exit::rest;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
