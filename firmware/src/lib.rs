@@ -30,6 +30,7 @@ pub mod io;
 pub mod law;
 pub mod motion;
 pub mod moves;
+mod near;
 pub mod parameters;
 pub mod path;
 pub mod pose;
