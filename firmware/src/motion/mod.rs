@@ -31,6 +31,7 @@ use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use delays::{Delays, preview_ticks};
@@ -216,7 +217,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
             }
             Request::Reach => {
                 let reach = &mut self.followers.borrow_mut().reach;
-                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
+                near(reach).as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
             }
             Request::Levers => {
                 let asked = self.levers.speeds(intent.levers);
@@ -225,14 +226,16 @@ impl<F: BorrowMut<Followers>> Motion<F> {
                 Wanted { speeds, ..Wanted::hold(lengths) }
             }
             Request::TipVelocity | Request::Grade | Request::Path => {
-                let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
-                let arm_mps = self.levers.speeds(intent.levers).arm;
+                let speeds = near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
+                // Only grade follows a lever.
+                let grades = intent.request == Request::Grade;
+                let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };
                 let Followers { delays, modes, .. } = self.followers.borrow_mut();
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };
-        let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
+        let speeds = near(&mut self.slew).as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
         Ok(Wanted { speeds, ..wanted })
     }
 }
