@@ -124,13 +124,12 @@ impl Law {
     ) -> (f32, [f32; 3]) {
         self.tick = self.tick.saturating_add(1);
         let [swing, boom, arm, bucket] = &mut self.channels;
-        let ahead = [a, b, c, boom.given, arm.given, bucket.given];
-        let [a, b, c, boom_then, arm_then, bucket_then] = delays.cylinders(self.tick, ahead);
+        let ahead = [a, b, c, boom.given, arm.given, bucket.given, turned.unwrap_or(0.0), swing.given];
+        let [a, b, c, boom_then, arm_then, bucket_then, turned_then, swing_then] = delays.modes(self.tick, ahead);
         (boom.given_then, arm.given_then, bucket.given_then) = (boom_then, arm_then, bucket_then);
-        let turned = turned.map_or(0.0, |turned| {
-            let [turned, given_then] = delays.swing(self.tick, [turned, swing.given]);
-            swing.given_then = given_then;
-            turned
+        let turned = turned.map_or(0.0, |_| {
+            swing.given_then = swing_then;
+            turned_then
         });
         (turned, [a, b, c])
     }
