@@ -15,6 +15,7 @@ use crate::fitted::Fitted;
 use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
@@ -102,30 +103,33 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         }
         let supply_v = self.sensing.supply_v(inputs);
         let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
-        self.diagnosis.judge(&inputs.codes, &inputs.pressures_pa);
+        near(&mut self.diagnosis).judge(&inputs.codes, &inputs.pressures_pa);
 
         let wanted = self.sense_and_follow(inputs);
         let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
-        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.err(), moving };
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.as_ref().err().copied(), moving };
         let (state, known) = (self.supervisor.state(), self.supervisor.fault());
-        let gate = self.supervisor.judge(inputs, &watched);
+        let gate = near(&mut self.supervisor).judge(inputs, &watched);
         if let (None, Some(fault)) = (known, self.supervisor.fault()) {
             self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
         }
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
-        let nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
-        let (wanted, fenced) = match (gate, wanted) {
+        let nothing;
+        let (wanted, fenced) = match (gate, &wanted) {
             (Gate::Open, Ok(wanted)) => wanted,
-            _ => nothing,
+            _ => {
+                nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
+                &nothing
+            }
         };
         if let Some((_, Some(fence), _)) = self.fitted.as_mut().and_then(|fitted| fitted.borrow_mut().parts()) {
-            fence.sent(&fenced.speeds);
+            near(fence).sent(&fenced.speeds);
         }
         self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
-        self.outputs((gate, inputs.overrun), watched.stage_fault, &wanted, &fenced, &driven)
+        self.outputs((gate, inputs.overrun), watched.stage_fault, wanted, fenced, &driven)
     }
 
     #[inline(always)]
@@ -182,20 +186,21 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         // Nothing is lent but in service.
         let fitted = self.fitted.as_mut().map(F::borrow_mut).ok_or(Fault::NotConfigured)?;
         let (machine, mut fence, followers) = fitted.parts().ok_or(Fault::NotConfigured)?;
-        let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
+        let machine = near(machine);
+        let result = near(&self.sensing).read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let suspected = self.diagnosis.fault();
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
                 return Err(fault);
             }
-            let pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
-            (self.lengths, self.pose) = (sensed.lengths, pose);
+            self.pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
+            self.lengths = sensed.lengths;
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
                 let asked = (&intent, inputs.slope);
-                self.motion.follow((machine, followers), running, asked, &pose, &sensed.lengths)?
+                near(&mut self.motion).follow((machine, followers), running, asked, &self.pose, &sensed.lengths)?
             };
             let fenced = match &mut fence {
-                Some(fence) => fence.limit(machine, &sensed, &wanted.speeds)?,
+                Some(fence) => near(fence).limit(machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },
             };
             Ok((wanted, fenced))

@@ -31,6 +31,7 @@ pub mod io;
 pub mod law;
 pub mod motion;
 pub mod moves;
+mod near;
 pub mod parameters;
 pub mod path;
 pub mod pose;

@@ -173,6 +173,23 @@ impl<T: Real> FourBar<T> {
         (self.squares + (balance * along + discriminant.sqrt() * across) / square).sqrt()
     }
 
+    /// [`FourBar::length_unchecked`] and the moment arm of [`FourBar::moment_arm_at`] there, their work shared; at a dead point of the
+    /// inverse map, where the moment arm has no bound, it is not finite.
+    #[inline(always)]
+    pub(crate) fn length_and_arm_unchecked(&self, rotor: Rotor<T>) -> (T, T) {
+        let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
+        let square = d.norm_squared();
+        let balance = square + self.rocker_balance;
+        let root = (self.four_rocker * square - balance * balance).sqrt();
+        let along = d.dot(self.pivot_from_base);
+        let across = d.cross(self.pivot_from_base);
+        let length = (self.squares + (balance * along + root * across) / square).sqrt();
+        let rocker_side = root * along - balance * across;
+        let coupler_side = root * (square + d.dot(self.pivot_from_pin))
+            + (square - self.rocker_balance) * d.cross(self.pivot_from_pin);
+        (length, -(rocker_side * coupler_side) / ((square + square) * square * (length * root)))
+    }
+
     /// Rotor of θ4 → J as [`FourBar::length`] finds it, with its velocity by θ4: dψ/dθ4 = (j × p)/(s × k) of [`FourBar::moment`].
     pub(crate) fn common_pin(&self, rotor: Rotor<T>) -> Result<CommonPin<T>, Gap<T>> {
         let p = rotor.rotate(self.coupler_pin);

@@ -16,12 +16,24 @@ use super::creep::Creep;
 use super::delays::{Delays, preview_ticks};
 use crate::TICK_S;
 use crate::fault::Fault;
-use crate::io::limited;
 use crate::law::LawParameters;
 use crate::parameters::MotionParameters;
 
 /// An error is left alone up to the rest zone, and from then on up to so many of it.
 const LEAVES_REST: f32 = 3.0;
+
+/// `x` within this of zero, where it mostly is.
+#[inline(always)]
+fn within(x: f32, most: f32) -> f32 {
+    if x.abs() > most { end(x, most) } else { x }
+}
+
+/// Not inlined: the compiler would compute both ends and choose, which takes longer than to see that neither is wanted.
+#[cold]
+#[inline(never)]
+fn end(x: f32, most: f32) -> f32 {
+    if x > 0.0 { most } else { -most }
+}
 
 /// One actuator.
 #[derive(Clone, Copy, Debug)]
@@ -112,30 +124,37 @@ impl Law {
     ) -> (f32, [f32; 3]) {
         self.tick = self.tick.saturating_add(1);
         let [swing, boom, arm, bucket] = &mut self.channels;
-        let ahead = [a, b, c, boom.given, arm.given, bucket.given];
-        let [a, b, c, boom_then, arm_then, bucket_then] = delays.cylinders(self.tick, ahead);
+        let ahead = [a, b, c, boom.given, arm.given, bucket.given, turned.unwrap_or(0.0), swing.given];
+        let [a, b, c, boom_then, arm_then, bucket_then, turned_then, swing_then] = delays.modes(self.tick, ahead);
         (boom.given_then, arm.given_then, bucket.given_then) = (boom_then, arm_then, bucket_then);
-        let turned = turned.map_or(0.0, |turned| {
-            let [turned, given_then] = delays.swing(self.tick, [turned, swing.given]);
-            swing.given_then = given_then;
-            turned
+        let turned = turned.map_or(0.0, |_| {
+            swing.given_then = swing_then;
+            turned_then
         });
         (turned, [a, b, c])
     }
 
     /// Speeds, from the feed-forward and reference − measured; the swing stands still unless it `swings`.
     pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4], swings: bool) -> Result<[f32; 4], Fault> {
+        // One after the other, not in a loop: chained iterators take twice the instructions.
+        let ([of_swing, of_boom, of_arm, of_bucket], [swing, boom, arm, bucket]) = (feed_forward, errors);
+        Ok([
+            if swings { self.checked(0, of_swing, swing)? } else { 0.0 },
+            self.checked(1, of_boom, boom)?,
+            self.checked(2, of_arm, arm)?,
+            self.checked(3, of_bucket, bucket)?,
+        ])
+    }
+
+    /// One actuator's speed, as long as it does not stray.
+    #[inline(always)]
+    fn checked(&mut self, index: usize, feed: f32, error: f32) -> Result<f32, Fault> {
         let quiet = self.tick <= self.quiet_until;
-        let mut speeds = [0.0; 4];
-        let each = speeds.iter_mut().zip(feed_forward).zip(errors).zip(self.following_errors).enumerate();
-        for (index, (((speed, feed), error), limit)) in each.skip(if swings { 0 } else { 1 }) {
-            let strays = error < -limit || error > limit;
-            if strays && !quiet {
-                return Err(Fault::FollowingError);
-            }
-            *speed = self.speed(index, self.feed_forward * feed, if quiet { 0.0 } else { error });
+        let limit = self.following_errors.get(index).copied().unwrap_or(0.0);
+        if error.abs() > limit && !quiet {
+            return Err(Fault::FollowingError);
         }
-        Ok(speeds)
+        Ok(self.speed(index, self.feed_forward * feed, if quiet { 0.0 } else { error }))
     }
 
     #[inline(always)]
@@ -152,14 +171,14 @@ impl Law {
         } else {
             channel.awake = true;
         }
-        let correction = limited(self.gain_per_s * lacking, -self.correction_limit, self.correction_limit);
+        let correction = within(self.gain_per_s * lacking, self.correction_limit);
         let asked = feed + correction;
         let [extend, retract] = &mut channel.bias;
         let (bias, asked_forward, feed_forward, lacking_forward) =
             if asked >= 0.0 { (extend, asked, feed, lacking) } else { (retract, -asked, -feed, -lacking) };
         // An error of the map shows only where the actuator really moves.
         if feed_forward > self.smallest_speed {
-            *bias = limited(*bias + self.integral_per_tick * lacking_forward, -self.bias_limit, self.bias_limit);
+            *bias = within(*bias + self.integral_per_tick * lacking_forward, self.bias_limit);
         }
         // What is lacking less may stop the actuator but not turn it round.
         let forward = asked_forward + *bias;

@@ -30,6 +30,7 @@ use crate::command::Intent;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use delays::{Delays, preview_ticks};
@@ -199,7 +200,8 @@ impl Motion {
                 planned.follow(lengths, delays)?
             }
             Request::Reach => {
-                followers.reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
+                let reach = near(&mut followers.reach);
+                reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
             }
             Request::Levers => {
                 let asked = self.levers.speeds(intent.levers);
@@ -208,14 +210,16 @@ impl Motion {
                 Wanted { speeds, ..Wanted::hold(lengths) }
             }
             Request::TipVelocity | Request::Grade | Request::Path => {
-                let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
-                let arm_mps = self.levers.speeds(intent.levers).arm;
+                let speeds = near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
+                // Only grade follows a lever.
+                let grades = intent.request == Request::Grade;
+                let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };
                 let Followers { delays, modes, .. } = followers;
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };
-        let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
+        let speeds = near(&mut self.slew).as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
         Ok(Wanted { speeds, ..wanted })
     }
 }

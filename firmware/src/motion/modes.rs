@@ -15,6 +15,7 @@ use crate::command::Intent;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::law::LawParameters;
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
 
 /// Path, grade and tip velocity.
@@ -62,15 +63,16 @@ impl Modes {
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        self.shared.speeds = speeds;
-        let shared = (&mut self.shared, delays);
+        let Self { shared, path, grade, tip } = self;
+        shared.speeds = speeds;
+        let shared = (near(shared), near(delays));
         match intent.request {
-            Request::TipVelocity => self.tip.follow(machine, shared, &intent.tip, pose, lengths),
+            Request::TipVelocity => near(tip).follow(machine, shared, &intent.tip, pose, lengths),
             Request::Grade => {
-                let grade = self.grade.as_mut().ok_or(Fault::NotConfigured)?;
+                let grade = near(grade).as_mut().ok_or(Fault::NotConfigured)?;
                 grade.follow(machine, shared, (arm_mps, slope), pose, lengths)
             }
-            _ => self.path.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, shared, pose, lengths),
+            _ => near(path).as_mut().ok_or(Fault::NotConfigured)?.follow(machine, shared, pose, lengths),
         }
     }
 }
