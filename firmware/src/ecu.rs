@@ -197,7 +197,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             (self.lengths, self.pose) = (sensed.lengths, pose);
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
-                let asked = (&intent, inputs.slope);
+                let asked = (&intent, inputs.slope, &inputs.pressures_pa);
                 self.motion.follow(&self.machine, running, asked, &pose, &sensed.lengths)?
             };
             let fenced = match &mut self.fence {

@@ -11,6 +11,7 @@ mod law;
 mod levers;
 mod limits;
 mod modes;
+mod overrun;
 mod path;
 mod planned;
 mod profile;
@@ -28,6 +29,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::diagnosis::Pressures;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
@@ -192,7 +194,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         &mut self,
         machine: &Machine<f32>,
         running: bool,
-        (intent, slope): (&Intent, Option<Slope>),
+        (intent, slope, pressures_pa): (&Intent, Option<Slope>, &Pressures),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
@@ -229,6 +231,7 @@ impl<F: BorrowMut<Followers>> Motion<F> {
                 let arm_mps = self.levers.speeds(intent.levers).arm;
                 let Followers { delays, modes, .. } = self.followers.borrow_mut();
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
+                modes.weigh(pressures_pa);
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };

@@ -191,6 +191,9 @@ fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Resul
     };
     scenario.parameters.coils = believed.coils;
     scenario.parameters.motion.preview_s = believed.preview_s as f32;
+    if let Some(law) = &mut scenario.parameters.motion.law {
+        law.overrun_n = believed.overrun_n;
+    }
     controller.apply(&mut scenario.parameters, &mut drawn);
     scenario.hydraulic = Some(drawn);
     let mut host = Host::new(&scenario.parameters).map_err(|error| format!("{}: {error}", task.name()))?;
