@@ -196,7 +196,7 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
             self.lengths = sensed.lengths;
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
-                let asked = (&intent, inputs.slope);
+                let asked = (&intent, inputs.slope, &inputs.pressures_pa);
                 near(&mut self.motion).follow((machine, followers), running, asked, &self.pose, &sensed.lengths)?
             };
             let fenced = match &mut fence {

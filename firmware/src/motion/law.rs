@@ -9,6 +9,8 @@
 //! speed   = feed-forward + gain · lacking + what this direction of the spool has been found to lack
 //! ```
 //!
+//! `lacking` is a mean over the feedback's time: at the frequency a machine rings with on its oil, the gain is low.
+//!
 //! The last term is learnt from `lacking` while the actuator moves; it is an error of the valve map, kept for each direction, and not
 //! among the corrections under way: at a steady speed the error itself goes to zero.
 
@@ -16,6 +18,7 @@ use super::creep::Creep;
 use super::delays::{Delays, preview_ticks};
 use crate::TICK_S;
 use crate::fault::Fault;
+use crate::io::limited;
 use crate::law::LawParameters;
 use crate::parameters::MotionParameters;
 
@@ -47,10 +50,13 @@ struct Channel {
     /// Not left alone within the rest zone.
     awake: bool,
     creep: Creep,
+    /// What has been lacking, over the feedback's time.
+    lacked: f32,
 }
 
 impl Channel {
-    const NEW: Self = Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST };
+    const NEW: Self =
+        Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST, lacked: 0.0 };
 }
 
 /// The law's state. Swing, boom, arm, bucket in every array.
@@ -70,11 +76,24 @@ pub(super) struct Law {
     quiet_until: u32,
     tick: u32,
     channels: [Channel; 4],
+    /// Share of what is lacking now.
+    feedback_share: f32,
+    /// One over the lags that all but stop the clock.
+    per_lag: [f32; 4],
+    /// The largest lag in the direction of motion, as a share of its own.
+    lag: f32,
 }
+
+/// Up to this share of the lag that all but stops the clock it keeps its pace.
+const PATIENCE: f32 = 0.25;
+
+/// The slowest pace of the clock for the sake of a lag.
+const SLOWEST: f32 = 0.05;
 
 impl Law {
     pub(super) fn new(motion: &MotionParameters, p: &LawParameters) -> Self {
         let cylinder = motion.following_error_m;
+        let per_lag = 1.0 / p.lag_m;
         Self {
             feed_forward: p.feed_forward,
             gain_per_s: motion.gain_per_s,
@@ -89,7 +108,15 @@ impl Law {
             quiet_until: 0,
             tick: 0,
             channels: [Channel::NEW; 4],
+            feedback_share: if p.feedback_lag_s > TICK_S { TICK_S / p.feedback_lag_s } else { 1.0 },
+            per_lag: [1.0 / p.swing_following_error_rad * (cylinder / p.lag_m), per_lag, per_lag, per_lag],
+            lag: 0.0,
         }
+    }
+
+    /// The pace at which whatever lags can catch up: a valve that gets too little oil is seen in no other way.
+    pub(super) fn pace(&self) -> f32 {
+        limited(1.0 + PATIENCE - self.lag, SLOWEST, 1.0)
     }
 
     /// How far ahead modes have to look, ticks.
@@ -100,6 +127,7 @@ impl Law {
     /// Starts over; what the valves were found to lack is kept. Nothing is corrected for `quiet` ticks after the preview.
     pub(super) fn begin(&mut self, quiet: u32) {
         self.tick = 0;
+        self.lag = 0.0;
         self.quiet_until = self.preview_ticks.saturating_add(quiet);
         for channel in &mut self.channels {
             *channel = Channel { bias: channel.bias, ..Channel::NEW };
@@ -136,6 +164,7 @@ impl Law {
 
     /// Speeds, from the feed-forward and reference − measured; the swing stands still unless it `swings`.
     pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4], swings: bool) -> Result<[f32; 4], Fault> {
+        self.lag = 0.0;
         // One after the other, not in a loop: chained iterators take twice the instructions.
         let ([of_swing, of_boom, of_arm, of_bucket], [swing, boom, arm, bucket]) = (feed_forward, errors);
         Ok([
@@ -159,20 +188,28 @@ impl Law {
 
     #[inline(always)]
     fn speed(&mut self, index: usize, feed: f32, error: f32) -> f32 {
-        let Some(channel) = self.channels.get_mut(index) else { return 0.0 };
+        let (Some(channel), Some(per_lag)) = (self.channels.get_mut(index), self.per_lag.get(index)) else {
+            return 0.0;
+        };
         let lacking = error - (channel.given - channel.given_then);
         if feed == 0.0 {
             let zone = if channel.awake { self.rest_zone } else { LEAVES_REST * self.rest_zone };
             channel.awake = lacking < -zone || lacking > zone;
             if !channel.awake {
-                channel.creep = Creep::REST;
+                (channel.creep, channel.lacked) = (Creep::REST, 0.0);
                 return 0.0;
             }
         } else {
             channel.awake = true;
         }
+        channel.lacked += (lacking - channel.lacked) * self.feedback_share;
+        let lacking = channel.lacked;
         let correction = within(self.gain_per_s * lacking, self.correction_limit);
         let asked = feed + correction;
+        let lag = if feed < 0.0 { -lacking } else { lacking } * per_lag;
+        if feed != 0.0 && lag > self.lag {
+            self.lag = lag;
+        }
         let [extend, retract] = &mut channel.bias;
         let (bias, asked_forward, feed_forward, lacking_forward) =
             if asked >= 0.0 { (extend, asked, feed, lacking) } else { (retract, -asked, -feed, -lacking) };

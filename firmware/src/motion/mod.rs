@@ -11,6 +11,7 @@ mod law;
 mod levers;
 mod limits;
 mod modes;
+mod overrun;
 mod path;
 mod planned;
 mod profile;
@@ -27,6 +28,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::diagnosis::Pressures;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
@@ -176,7 +178,7 @@ impl Motion {
         &mut self,
         (machine, followers): (&Machine<f32>, &mut Followers),
         running: bool,
-        (intent, slope): (&Intent, Option<Slope>),
+        (intent, slope, pressures_pa): (&Intent, Option<Slope>, &Pressures),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
@@ -216,6 +218,7 @@ impl Motion {
                 let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };
                 let Followers { delays, modes, .. } = followers;
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
+                modes.weigh(pressures_pa);
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };

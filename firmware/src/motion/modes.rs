@@ -12,6 +12,7 @@ use super::path::PathFollower;
 use super::tip_velocity::TipFollower;
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::diagnosis::Pressures;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::law::LawParameters;
@@ -40,6 +41,7 @@ impl Modes {
     }
 
     pub(super) fn reset(&mut self) {
+        self.shared.overrun.reset();
         self.tip.reset();
         if let Some(path) = &mut self.path {
             path.reset();
@@ -52,6 +54,12 @@ impl Modes {
     /// Lever speeds, slow enough before the ends of the strokes.
     pub(super) fn cushion(&self, lengths: &Cylinders<f32>, speeds: Speeds) -> Speeds {
         self.shared.limits.cushion(lengths, speeds)
+    }
+
+    /// One tick's pressures.
+    #[inline(always)]
+    pub(super) fn weigh(&mut self, pressures_pa: &Pressures) {
+        self.shared.overrun.weigh(pressures_pa);
     }
 
     /// One tick of the mode asked for; `speeds` are those of the last tick, `arm_mps` what the arm's lever asks for.

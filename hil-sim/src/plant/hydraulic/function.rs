@@ -60,6 +60,15 @@ impl FunctionModel {
         let open = opening(place * sign, self.dead_band[direction], self.fine);
         sign * open * self.meter_in_m3ps[direction] / self.areas[direction]
     }
+
+    /// Load in the direction of motion (extend 0, retract 1) above which the outlet edge lets more go than the inlet gives, N: what a
+    /// calibration under a load finds.
+    pub fn overrun_n(&self, direction: usize) -> f64 {
+        let (driven, other) = (direction, 1 - direction);
+        let out = self.meter_in_m3ps[direction] * self.areas[other] / self.areas[driven];
+        let root = out / self.meter_out[direction];
+        root * root * self.areas[other]
+    }
 }
 
 impl FunctionModel {
