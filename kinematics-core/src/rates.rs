@@ -257,8 +257,8 @@ impl<T: Real> Machine<T> {
             let boom = self.boom.length_unchecked(joints.boom);
             let arm = self.arm.length_unchecked(joints.arm);
             let (bucket, bucket_arm) = self.bucket.length_and_arm_unchecked(joints.bucket);
-            // As there; and a moment arm that is not finite leaves not zero but no number.
-            if boom + arm + bucket > T::ZERO && bucket_arm - bucket_arm == T::ZERO {
+            // As there; and times zero a moment arm that is not finite is no number.
+            if boom + arm + bucket > T::ZERO && bucket_arm * T::ZERO == T::ZERO {
                 let arms = MomentArms {
                     boom: self.boom.arm_of(joints.boom, boom),
                     arm: self.arm.arm_of(joints.arm, arm),
