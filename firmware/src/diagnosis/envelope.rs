@@ -9,7 +9,7 @@
 use super::ROUND_S;
 use super::parameters::DiagnosisParameters;
 
-/// What was measured counts so many times: the memory of it fades by a fifth in half a swing of 0.8 s.
+/// What was measured counts so many times: with a run-on of 2 s the memory of it fades by a fifth in half a swing of 0.4 s.
 const MEASURED: f32 = 1.25;
 
 /// What all actuators calculate with.
@@ -17,6 +17,8 @@ const MEASURED: f32 = 1.25;
 pub(super) struct Model {
     /// Share of a speed that the run-on takes off in a round.
     run_on_share: f32,
+    /// Share of a measured speed that a round remembers.
+    remembered: f32,
     /// Share of the way to its command that the slowest spool goes in a round.
     lag_share: f32,
     over: f32,
@@ -35,6 +37,8 @@ impl Model {
         let share = |time_s: f32| if time_s > ROUND_S { ROUND_S / time_s } else { 1.0 };
         Self {
             run_on_share: share(p.run_on_s),
+            // Half the run-on: longer than from one swing to the next.
+            remembered: 1.0 - share(0.5 * p.run_on_s),
             lag_share: share(p.spool_lag_s),
             over: 1.0 + p.overshoot,
             ring: p.ring,
@@ -169,8 +173,8 @@ impl Envelope {
     #[inline(always)]
     fn swing(&mut self, model: &Model, speed: f32) {
         let [out, back] = &mut self.swung;
-        *out -= *out * model.run_on_share;
-        *back -= *back * model.run_on_share;
+        *out *= model.remembered;
+        *back *= model.remembered;
         if speed > *out {
             *out = speed;
         } else if -speed > *back {
