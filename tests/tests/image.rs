@@ -155,7 +155,7 @@ fn the_boards_image_fits_buckets_and_writes_its_store_in_the_idle_loop_and_never
     let graph = graph(&elf("ecu-stm32f405"));
     let tick = graph.reached(graph.named(TICK).expect("the tick"));
     let errand = graph.reached(graph.named(ERRAND).expect("the errand"));
-    for beside in ["Fitted::fit", "Move::plan", "Store<F>::write", "Store<F>::load", "flash::wait_in_ram"] {
+    for beside in ["Fitted::fit", "Move::plan", "Store<F>::write", "Store<F>::load", "ParameterFlash::operate"] {
         let named = |function: &&hil_sim::elf::Function| function.name.contains(beside);
         assert!(errand.values().any(named), "the errand does not reach {beside}");
         assert!(!tick.values().any(named), "the tick reaches {beside}");

@@ -87,3 +87,27 @@ fn an_image_that_does_not_fail_touches_no_output() {
     let image = Image::build("faults-emulated").unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(told(&image, b'-'), (1, vec![]));
 }
+
+#[test]
+#[ignore = "needs the emulator: run cargo xtask test"]
+fn the_parameter_flash_is_unlocked_for_one_operation_erased_forgotten_by_the_cache_programmed_and_locked() {
+    let image = Image::build("faults-emulated").unwrap_or_else(|error| panic!("{error}"));
+    let (code, writes) = told(&image, b'w');
+    assert_eq!(code, 0, "sector 3 erased and a word of it programmed");
+    let found: Vec<(u32, u32)> =
+        writes.into_iter().filter(|(device, ..)| device == "Flash Int").map(|(_, at, value)| (at, value)).collect();
+    // RM0090, 3.9: access control, keys, status, control.
+    const ACR: u32 = 0x00;
+    const KEYR: u32 = 0x04;
+    const SR: u32 = 0x0c;
+    const CR: u32 = 0x10;
+    let unlocked = [(KEYR, 0x4567_0123), (KEYR, 0xcdef_89ab), (SR, 0xf2)];
+    let locked = [(CR, 1 << 31)];
+    // Sector 3 by words of 32 bits: chosen, then started.
+    let erased = [(CR, 0x21a), (CR, 0x1_021a)];
+    // Data cache off, reset, on again.
+    let forgotten = [(ACR, 0), (ACR, 1 << 12), (ACR, 0), (ACR, 1 << 10)];
+    let programmed = [(CR, 0x201)];
+    let expected = [&unlocked[..], &erased, &locked, &forgotten, &unlocked, &programmed, &locked].concat();
+    assert_eq!(found, expected);
+}

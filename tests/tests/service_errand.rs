@@ -151,7 +151,7 @@ fn a_power_cut_at_any_time_leaves_one_bucket_noted_and_the_answer_says_which() {
 #[test]
 fn a_lost_errand_leaves_the_machine_disabled() {
     let mut rig = asked();
-    drop(rig.ecu.errand(permit()).expect("due"));
+    let _lost = rig.ecu.errand(permit()).expect("due");
     rig.inputs.service = None;
     for tick in 0..3000 {
         rig.inputs.enable = tick % 100 > 50;
