@@ -8,6 +8,7 @@ use crate::sensing::Sensed;
 ///
 /// # Errors
 /// The cylinder out of its stroke or the linkage that does not close.
+#[inline]
 pub fn pose(machine: &Machine<f32>, sensed: &Sensed) -> Result<Pose<f32>, PoseError<f32>> {
     machine.cylinders_to_tip(&sensed.lengths, sensed.swing)
 }

@@ -41,6 +41,7 @@ impl Coordination {
     }
 
     /// Speed of the swing's actuator for a rad/s of swing: 1 of a motor, the moment arm of a cylinder.
+    #[inline]
     pub(super) fn swing_lever(&self, machine: &Machine<f32>, pose: &Pose<f32>) -> Result<f32, Fault> {
         let Some(cylinder) = machine.swing_cylinder() else { return Ok(1.0) };
         let length = cylinder.length(pose.swing).map_err(|_| Fault::Geometry)?;
