@@ -1,8 +1,17 @@
 //! Second stage: lengths and swing → bucket pose, in closed form (`kinematics-core`).
 
-use kinematics_core::{Machine, Pose, PoseError};
+use kinematics_core::{GeometryError, Machine, PinGeometry, Pose, PoseError};
 
 use crate::sensing::Sensed;
+
+/// The maps of a geometry. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
+///
+/// # Errors
+/// The first problem of the geometry, named by its field.
+#[inline(never)]
+pub(crate) fn maps(geometry: &PinGeometry) -> Result<Machine<f32>, GeometryError> {
+    Machine::new(geometry)
+}
 
 /// The bucket pose of what the sensors say.
 ///

@@ -6,9 +6,10 @@ use super::Ecu;
 use crate::dig::Dig;
 use crate::fence::Fence;
 use crate::motion::Followers;
+use crate::pose::maps;
 use crate::store::StoredRecord;
 use crate::travel::violation_among;
-use kinematics_core::{Machine, PinGeometry};
+use kinematics_core::PinGeometry;
 
 /// Ticks of the dig tried in a tick of the controller.
 const DIG_TICKS: u32 = 64;
@@ -111,7 +112,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     }
 
     fn put_maps(&mut self, buckets: &Buckets) -> Option<()> {
-        self.machine = Machine::new(&buckets.geometry()?).ok()?;
+        self.machine = maps(&buckets.geometry()?).ok()?;
         Some(())
     }
 }

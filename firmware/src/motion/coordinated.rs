@@ -49,7 +49,7 @@ impl Coordination {
     }
 
     /// One factor for all speeds (swing rad/s): within full speeds, pump flow, and what stops before the ends of the strokes.
-    #[inline(always)]
+    #[inline]
     pub(super) fn factor(&self, [swing, boom, arm, bucket]: [f32; 4], lever: f32, ahead: &Cylinders<f32>) -> f32 {
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, self.share);
@@ -82,7 +82,7 @@ impl Coordination {
     }
 
     /// Closes the loop: speeds that bring the actuators to where `ahead` was a preview ago.
-    #[inline(always)]
+    #[inline]
     pub(super) fn close(
         &mut self,
         delays: &mut Delays,
