@@ -165,7 +165,7 @@ impl Sweep {
             Some(next) if next < count => Next::Weigh(number, next),
             Some(_) if number + 1 < LIMITS => Next::Weigh(number + 1, 0),
             _ => {
-                self.near = self.found;
+                self.near.clone_from(&self.found);
                 self.near_ahead = self.ahead;
                 self.near_wish = self.scene.wish;
                 Next::Bend
