@@ -9,7 +9,7 @@ fn main() {
         return;
     }
     let manifest = env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR");
-    let root = Path::new(&manifest).parent().expect("firmware stands in the workspace");
+    let root = Path::new(&manifest).parent().expect("the package stands in the workspace");
     println!("cargo:rustc-link-search={}", root.display());
     // memory.x is found through the search path; link.x comes from cortex-m-rt.
     for argument in ["-Tlink.x", "--nmagic"] {

@@ -2,7 +2,7 @@
 //! workspace).
 //!
 //! Generic functions and those marked `#[inline]` are compiled where they are called: whatever of `firmware` and `kinematics-core` every
-//! tick runs is marked so, and compiled here.
+//! tick runs is one or the other, and compiled here. The bench image stands beside it, because what it counts must be compiled alike.
 #![no_std]
 #![forbid(unsafe_code)]
 

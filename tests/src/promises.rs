@@ -164,7 +164,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// All Rust files of the loop: kinematics-core/src, firmware/src and the tick that the images run.
+/// All Rust files of the loop: kinematics-core/src and firmware/src.
 ///
 /// # Panics
 /// When a folder cannot be read.
