@@ -8,6 +8,7 @@ use crate::dig::Dig;
 use crate::fence::Fence;
 use crate::motion::Followers;
 use crate::parameters::{ParameterError, Parameters};
+use crate::pose::maps;
 use crate::travel::first_violation;
 
 /// Everything of the application that depends on the bucket, in one memory that is filled in place: about 15 KiB. An image gives it as a
@@ -38,7 +39,7 @@ impl Fitted {
     #[inline(never)]
     pub(crate) fn fit(&mut self, p: &Parameters) -> Result<(), ParameterError> {
         (self.machine, self.fence) = (None, None);
-        let machine = Machine::new(&p.geometry)?;
+        let machine = maps(&p.geometry)?;
         let dig = p.dig.as_ref().map(Dig::new);
         if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
             return Err(ParameterError::Dig(violation));

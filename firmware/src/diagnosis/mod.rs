@@ -80,6 +80,7 @@ impl Diagnosis {
     }
 
     /// One tick: the sensors' codes and the pressures.
+    #[inline]
     pub fn judge(&mut self, codes: &[u16; 4], pressures: &Pressures) {
         if !self.begun {
             self.begun = true;
@@ -134,6 +135,7 @@ impl Diagnosis {
     }
 
     /// What went to the valves in this tick.
+    #[inline]
     pub fn sent(&mut self, speeds: &Speeds) {
         self.sent = speeds.to_array();
     }
@@ -150,11 +152,13 @@ impl Diagnosis {
     }
 
     /// Speeds as measured: swing, boom, arm, bucket, m/s or rad/s.
+    #[inline]
     pub fn speeds(&self) -> Speeds {
         Speeds::from_array(self.channels.each_ref().map(Channel::speed))
     }
 
     /// Some actuator moves.
+    #[inline]
     pub fn moving(&self) -> bool {
         self.channels.iter().any(|channel| channel.moving)
     }

@@ -134,19 +134,21 @@ impl CoilStage {
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the
     /// coils' current codes.
+    #[inline]
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let this = near(self);
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
         let now = Now { gate, supply: this.shared.gains.supply(supply_v), begun: Cell::new(false) };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
-        let inputs = speeds.to_array().into_iter().zip(codes);
-        for (index, ((spool, (speed, codes)), (currents, duties))) in
+        let speeds = speeds.to_array();
+        let inputs = speeds.iter().zip(codes);
+        for (index, ((spool, (&speed, codes)), (currents, duties))) in
             this.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
         {
             if spool.sleeps(&this.shared, speed, *codes) {
                 continue;
             }
-            if let Some((side, fault)) = spool.tick(&this.shared, &now, speed, *codes, (currents, duties))
+            if let Some((side, fault)) = spool.tick::<true>(&this.shared, &now, speed, *codes, (currents, duties))
                 && driven.fault.is_none_or(|so_far| fault < so_far.fault)
             {
                 driven.fault = Some(FaultyCoil { spool: index, side, fault });

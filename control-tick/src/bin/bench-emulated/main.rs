@@ -8,10 +8,10 @@ mod coils;
 #[cfg(target_os = "none")]
 mod diagnosis;
 #[cfg(target_os = "none")]
-#[path = "../../emulated/mod.rs"]
+#[path = "../../../../images/src/emulated/mod.rs"]
 mod emulated;
 #[cfg(target_os = "none")]
-#[path = "../../emulated/panic.rs"]
+#[path = "../../../../images/src/emulated/panic.rs"]
 mod panic;
 
 #[cfg(target_os = "none")]

@@ -129,17 +129,19 @@ mod app {
 
     #[task(binds = TIM2, local = [board, controller, timer, late: bool = false], shared = [errand, done])]
     fn tick(mut cx: tick::Context) {
-        cx.local.timer.clear_flags(Flag::Update);
-        let (controller, board) = (cx.local.controller, cx.local.board);
+        let tick::LocalResources { board, controller, timer, late, .. } = cx.local;
+        timer.clear_flags(Flag::Update);
         if let Some(done) = cx.shared.done.lock(Option::take) {
             controller.done(done);
         }
-        let outputs = controller.cycle(board, *cx.local.late);
+        let inputs = controller.read(board, *late);
+        let outputs = control_tick::tick(controller, &inputs);
+        controller.write(board, &outputs);
         if let Some(due) = controller.errand(board) {
             cx.shared.errand.lock(|errand| *errand = Some(due));
         }
         log::leave(&outputs);
         // The next period has begun already: this one ended too late, and the next tick says so.
-        *cx.local.late = cx.local.timer.flags().contains(Flag::Update);
+        *late = timer.flags().contains(Flag::Update);
     }
 }
