@@ -1,10 +1,8 @@
-//! What the images for the emulator share: the link to the harness, the controller in conversation with it, the stopwatch, the end.
+//! What the images for the emulator share: the link to the harness, the stopwatch, the end.
 #![allow(dead_code)] // each image uses its part
 
 pub(crate) mod exit;
 pub(crate) mod link;
-#[cfg(feature = "simulated")]
-pub(crate) mod session;
 pub(crate) mod stack;
 pub(crate) mod stopwatch;
 

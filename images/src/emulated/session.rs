@@ -6,8 +6,8 @@ use firmware::simulated::link::{NAME, RECORD_BYTES, REFUSAL_BYTES, REQUEST_BYTES
 use firmware::simulated::{SimulatedBoard, Wires};
 use firmware::{Fitted, Parameters, SelfTest};
 
-use super::link::{Link, LinkLost};
-use super::stopwatch::Stopwatch;
+use crate::emulated::link::{Link, LinkLost};
+use crate::emulated::stopwatch::Stopwatch;
 
 /// Everything a tick needs.
 pub(crate) struct Session {

@@ -3,9 +3,9 @@
 #[rtic::app(device = stm32f4::stm32f405, peripherals = true)]
 mod app {
     use crate::emulated::link::LinkLost;
-    use crate::emulated::session::Session;
     use crate::emulated::stopwatch::Stopwatch;
     use crate::emulated::{fail, stack, succeed};
+    use crate::session::Session;
     use firmware::Fitted;
     use firmware::simulated::link::Request;
     use stm32f4::stm32f405::TIM2;

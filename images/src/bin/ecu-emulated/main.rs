@@ -9,6 +9,9 @@ mod emulated;
 #[cfg(target_os = "none")]
 #[path = "../../emulated/panic.rs"]
 mod panic;
+#[cfg(target_os = "none")]
+#[path = "../../emulated/session.rs"]
+mod session;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
