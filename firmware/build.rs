@@ -16,7 +16,7 @@ fn main() {
         println!("cargo:rustc-link-arg-bins={argument}");
     }
     // Where defmt's strings go; only these images log.
-    for image in ["ecu-stm32f405", "faults-emulated"] {
+    for image in ["ecu-stm32f405", "faults-emulated", "spoilt-emulated"] {
         println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
     }
 }

@@ -8,6 +8,7 @@ use core::borrow::BorrowMut;
 use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::command::Intent;
+use crate::constants::{Constant, Constants};
 use crate::diagnosis::Diagnosis;
 use crate::dig::Dig;
 use crate::fault::{Fault, State};
@@ -19,6 +20,7 @@ use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::service::Service;
+use crate::service::stage::Run;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
 use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
@@ -95,6 +97,26 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     /// Takes the board's start-up report; before every step of it has passed nothing is enabled.
     pub fn self_tested(&mut self, report: &SelfTest) {
         self.supervisor.self_tested(report);
+    }
+
+    /// Where everything lies that is not written any more; `None` while a bucket is being mounted, which derives some of it anew.
+    // Not inlined: it is for the start.
+    #[inline(never)]
+    pub fn constants(&self) -> Option<Constants> {
+        if self.is_rebuilt() {
+            return None;
+        }
+        let fence = self.fence.as_ref().map_or([Constant::NOWHERE; 2], Fence::constants);
+        let parts = [Constant::of(&self.machine), Constant::of(&self.sensing), self.motion.constant()];
+        let parts = parts.into_iter().chain(self.supervisor.constants()).chain(self.diagnosis.constants());
+        let mut parts = parts.chain(self.valve.constants()).chain(fence);
+        Some([(); _].map(|()| parts.next().unwrap_or(Constant::NOWHERE)))
+    }
+
+    /// A bucket is being mounted.
+    #[inline(always)]
+    pub fn is_rebuilt(&self) -> bool {
+        matches!(self.service.run(), Run::Mounting | Run::Mounted)
     }
 
     /// What was known at the first latched fault.

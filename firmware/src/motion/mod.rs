@@ -28,6 +28,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::constants::Constant;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
@@ -147,6 +148,11 @@ impl<F: BorrowMut<Followers>> Motion<F> {
             followers,
             request: Request::Neutral,
         })
+    }
+
+    /// Where the levers' constants lie.
+    pub(crate) const fn constant(&self) -> Constant {
+        Constant::of(&self.levers)
     }
 
     /// Precomputes everything anew, for another geometry; the dig has been tried before.

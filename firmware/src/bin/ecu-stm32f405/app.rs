@@ -4,6 +4,7 @@
 mod app {
     use crate::flash::ParameterFlash;
     use crate::pins::{self, Chips, Ecu405, StartError};
+    use crate::target::constant_watch::{CORRUPT, ConstantWatch};
     use crate::{log, safe_state, target};
     use cortex_m::singleton;
     use firmware::board::Controller;
@@ -31,6 +32,7 @@ mod app {
     struct Local {
         board: Ecu405,
         controller: &'static mut Controller<&'static mut Followers>,
+        watch: ConstantWatch,
         timer: CounterHz<TIM2>,
     }
 
@@ -66,7 +68,7 @@ mod app {
             safe_state::halt(&|| defmt::error!("no such tick rate"));
         }
         timer.listen(Event::Update);
-        (Shared {}, Local { board, controller, timer })
+        (Shared {}, Local { board, controller, watch: ConstantWatch::new(), timer })
     }
 
     /// The stored parameters; without them nothing ever moves. Not inlined, nor is [`controller`]: one's values are off the stack before the
@@ -102,10 +104,13 @@ mod app {
         }
     }
 
-    #[task(binds = TIM2, local = [board, controller, timer, late: bool = false])]
+    #[task(binds = TIM2, local = [board, controller, watch, timer, late: bool = false])]
     fn tick(cx: tick::Context) {
         cx.local.timer.clear_flags(Flag::Update);
         let outputs = cx.local.controller.cycle(cx.local.board, *cx.local.late);
+        if !cx.local.watch.look(cx.local.controller.ecu()) {
+            cx.local.controller.self_tested(&CORRUPT);
+        }
         log::leave(&outputs);
         // The next period has begun already: this one ended too late, and the next tick says so.
         *cx.local.late = cx.local.timer.flags().contains(Flag::Update);
