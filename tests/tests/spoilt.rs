@@ -29,5 +29,5 @@ fn turned_bits_of_constants_and_a_lost_timer_end_with_the_outputs_off_and_are_na
     let state = row(&report, "bit_of_controller_state");
     assert_eq!(state.runs, state.no_effect + state.off + state.slight + state.astray);
     assert!(report.holds());
-    assert!(report.watch_instructions.is_some_and(|most| most <= 50), "{:?}", report.watch_instructions);
+    assert!(report.watch_instructions.is_some_and(|most| most <= 40), "{:?}", report.watch_instructions);
 }

@@ -6,15 +6,13 @@ use firmware::constants::{Constant, Constants};
 use firmware::supervisor::Check;
 use firmware::{Ecu, Followers, SelfTest};
 
-/// Words read in a tick.
-const WORDS: usize = 4;
-
 /// What the supervisor is told of constants that are not what they were: nothing is enabled any more before a restart.
 pub(crate) const CORRUPT: SelfTest = SelfTest { parameters: Check::Failed, ..SelfTest::PASSED };
 
 /// The watch over one controller, which must not move.
 pub(crate) struct ConstantWatch {
-    places: Option<Constants>,
+    places: Constants,
+    begun: bool,
     /// The place after the one that is read.
     next: usize,
     at: *const u32,
@@ -30,39 +28,66 @@ unsafe impl Send for ConstantWatch {}
 impl ConstantWatch {
     /// Before the first tick.
     pub(crate) const fn new() -> Self {
-        Self { places: None, next: 0, at: core::ptr::null(), left: 0, sum: 0, expected: None }
+        Self {
+            places: [Constant::NOWHERE; _],
+            begun: false,
+            next: 0,
+            at: core::ptr::null(),
+            left: 0,
+            sum: 0,
+            expected: None,
+        }
     }
 
     /// After each tick; false when a round has not the sum of the first. A change of the bucket starts it over.
     #[inline(never)]
     pub(crate) fn look<F: BorrowMut<Followers>>(&mut self, ecu: &Ecu<F>) -> bool {
-        if ecu.is_rebuilt() {
-            *self = Self::new();
-            return true;
+        if ecu.is_rebuilt() || !self.begun {
+            return self.begin(ecu);
         }
-        let Some(places) = &self.places else {
-            self.places = ecu.constants();
-            return true;
-        };
         if self.left == 0 {
-            let Some(place) = places.get(self.next) else { return self.end() };
-            (self.at, self.left, self.next) = (place.start(), place.words(), self.next + 1);
+            return self.next_place();
         }
-        let count = if self.left < WORDS { self.left } else { WORDS };
-        let (mut at, mut sum) = (self.at, self.sum);
-        for _ in 0..count {
-            // SAFETY: a word of a part of `ecu`, which stays where it is. That nobody writes it the compiler need not believe: volatile.
-            let word = unsafe { at.read_volatile() };
-            // One turned bit turns one bit of the sum, wherever it is.
-            sum = sum.rotate_left(5) ^ word;
-            at = at.wrapping_add(1);
+        // Four or one, written out: a loop of so few would be unrolled into more instructions than it saves.
+        if self.left >= 4 {
+            self.read();
+            self.read();
+            self.read();
         }
-        (self.at, self.sum, self.left) = (at, sum, self.left - count);
+        self.read();
+        true
+    }
+
+    /// Takes the next word into the sum.
+    #[inline(always)]
+    fn read(&mut self) {
+        // SAFETY: a word of a part of the controller, which stays where it is. That nobody writes it the compiler need not believe: volatile.
+        let word = unsafe { self.at.read_volatile() };
+        // One turned bit turns one bit of the sum, wherever it is.
+        self.sum = self.sum.rotate_left(5) ^ word;
+        (self.at, self.left) = (self.at.wrapping_add(1), self.left.wrapping_sub(1));
+    }
+
+    /// Finds the places, once there is nothing more to come.
+    #[inline(never)]
+    fn begin<F: BorrowMut<Followers>>(&mut self, ecu: &Ecu<F>) -> bool {
+        *self = Self::new();
+        if let Some(places) = ecu.constants() {
+            (self.places, self.begun) = (places, true);
+        }
+        true
+    }
+
+    /// Goes on with the next place, or ends the round.
+    #[inline(always)]
+    fn next_place(&mut self) -> bool {
+        let Some(place) = self.places.get(self.next) else { return self.end() };
+        (self.at, self.left, self.next) = (place.start(), place.words(), self.next + 1);
         true
     }
 
     /// The end of a round.
-    #[inline(never)]
+    #[inline(always)]
     fn end(&mut self) -> bool {
         let sound = self.expected.is_none_or(|expected| expected == self.sum);
         self.expected.get_or_insert(self.sum);
@@ -73,7 +98,7 @@ impl ConstantWatch {
     /// It knows the places; finding them takes a tick of its own.
     #[allow(dead_code)] // as below
     pub(crate) const fn has_begun(&self) -> bool {
-        self.places.is_some()
+        self.begun
     }
 
     /// Whether this address is among the constants.
@@ -83,6 +108,6 @@ impl ConstantWatch {
             let start = place.start().addr();
             (start..start + place.words() * size_of::<u32>()).contains(&address)
         };
-        self.places.is_some_and(|places| places.iter().any(within))
+        self.places.iter().any(within)
     }
 }
