@@ -1,42 +1,39 @@
-//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `mount` the change of the bucket.
+//! The whole application: one tick from inputs to outputs. `serve` is a tick in service, `errand` what is done beside the ticks.
 
-mod mount;
+mod errand;
 mod serve;
 
 use core::borrow::BorrowMut;
 
-use kinematics_core::{Cylinders, Machine, Pose};
+use kinematics_core::{Cylinders, Pose};
 
 use crate::command::Intent;
 use crate::constants::{Constant, Constants};
 use crate::diagnosis::Diagnosis;
-use crate::dig::Dig;
 use crate::fault::{Fault, State};
-use crate::fence::{Fence, Fenced, NO_CLEARANCE};
+use crate::fence::{Fenced, NO_CLEARANCE};
+use crate::fitted::Fitted;
 use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
-use crate::motion::{Followers, Motion, Wanted};
+use crate::motion::{Motion, Wanted};
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
 use crate::pose::pose;
 use crate::sensing::Sensing;
 use crate::service::Service;
-use crate::service::stage::Run;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
-use crate::travel::first_violation;
 use crate::valve::coil_fault::FaultyCoil;
 use crate::valve::coil_stage::{CoilStage, CoilsDriven};
 
-use mount::Buckets;
-
-/// The controller: stages, the supervisor, and the last valid pose. `F` holds what planned motion needs of memory, by value or, as
-/// in an image, by reference.
+/// The controller: stages, the supervisor, and the last valid pose. `F` holds what is fitted to the bucket, by value or, as in an image,
+/// by reference.
 #[derive(Clone, Debug)]
-pub struct Ecu<F = Followers> {
-    machine: Machine<f32>,
+pub struct Ecu<F = Fitted> {
+    /// `None` while it is lent to have another bucket fitted.
+    fitted: Option<F>,
     sensing: Sensing,
     diagnosis: Diagnosis,
-    motion: Motion<F>,
-    fence: Option<Fence>,
+    motion: Motion,
     supervisor: Supervisor,
     valve: CoilStage,
     /// What the coils' currents showed in the last tick.
@@ -46,42 +43,37 @@ pub struct Ecu<F = Followers> {
     lengths: Cylinders<f32>,
     pose: Pose<f32>,
     service: Service,
-    buckets: Option<Buckets>,
 }
 
 impl Ecu {
-    /// [`Ecu::with`] followers of its own.
+    /// [`Ecu::with`] a memory of its own.
     ///
     /// # Errors
     /// As there.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        Self::with(parameters, Followers::new())
+        Self::with(parameters, Fitted::new())
     }
 }
 
-impl<F: BorrowMut<Followers>> Ecu<F> {
+impl<F: BorrowMut<Fitted>> Ecu<F> {
     /// Validates the parameters, the dig's travel included, plans the move, and builds every stage.
     ///
     /// # Errors
     /// The first parameter at fault, by name and range, the dig's first violation, or why the move has no plan.
-    pub fn with(parameters: &Parameters, followers: F) -> Result<Self, ParameterError> {
+    pub fn with(parameters: &Parameters, mut fitted: F) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
-        let machine = Machine::new(&p.geometry)?;
-        let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, [&p.supply, &p.sensor_supply], &machine)
+        fitted.borrow_mut().fit(p)?;
+        let supplies = [&p.supply, &p.sensor_supply];
+        let parts = fitted.borrow_mut().parts();
+        let sensing = parts
+            .and_then(|(machine, ..)| Sensing::new(&p.swing_sensor, &p.cylinder_sensors, supplies, machine))
             .ok_or(ParameterError::NoSwingCylinder)?;
-        let dig = p.dig.as_ref().map(Dig::new);
-        if let Some(violation) = dig.as_ref().and_then(|dig| first_violation(&machine, dig)) {
-            return Err(ParameterError::Dig(violation));
-        }
-        let fence =
-            p.fence.as_ref().map(|fence| Fence::new(fence, &p.geometry, &machine, &p.coils.valves())).transpose()?;
         Ok(Self {
             diagnosis: Diagnosis::new(&p.diagnosis, sensing.views()),
             sensing,
-            motion: Motion::new(p, &machine, dig, followers)?,
-            fence,
-            machine,
+            motion: Motion::new(p),
+            fitted: Some(fitted),
             supervisor: Supervisor::new(&p.supply, &p.sensor_supply),
             valve: CoilStage::new(&p.coils)?,
             coil_fault: None,
@@ -90,7 +82,6 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
             lengths: NO_LENGTHS,
             pose: NO_POSE,
             service: Service::new(p),
-            buckets: None,
         })
     }
 
@@ -102,21 +93,22 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     /// Where everything lies that is not written any more; `None` while a bucket is being mounted, which derives some of it anew.
     // Not inlined: it is for the start.
     #[inline(never)]
-    pub fn constants(&self) -> Option<Constants> {
+    pub fn constants(&mut self) -> Option<Constants> {
         if self.is_rebuilt() {
             return None;
         }
-        let fence = self.fence.as_ref().map_or([Constant::NOWHERE; 2], Fence::constants);
-        let parts = [Constant::of(&self.machine), Constant::of(&self.sensing), self.motion.constant()];
+        let (machine, fence, _) = self.fitted.as_mut()?.borrow_mut().parts()?;
+        let fence = fence.map_or([Constant::NOWHERE; 2], |fence| fence.constants());
+        let parts = [Constant::of(machine), Constant::of(&self.sensing), self.motion.constant()];
         let parts = parts.into_iter().chain(self.supervisor.constants()).chain(self.diagnosis.constants());
         let mut parts = parts.chain(self.valve.constants()).chain(fence);
         Some([(); _].map(|()| parts.next().unwrap_or(Constant::NOWHERE)))
     }
 
-    /// A bucket is being mounted.
+    /// An errand is about to begin, under way or just over: it may fit another bucket.
     #[inline(always)]
     pub fn is_rebuilt(&self) -> bool {
-        matches!(self.service.run(), Run::Mounting | Run::Mounted)
+        self.service.runs_errand()
     }
 
     /// What was known at the first latched fault.
@@ -133,30 +125,33 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         }
         let supply_v = self.sensing.supply_v(inputs);
         let sensor_supply_v = self.sensing.sensor_supply_v(inputs);
-        self.diagnosis.judge(&inputs.codes, &inputs.pressures_pa);
+        near(&mut self.diagnosis).judge(&inputs.codes, &inputs.pressures_pa);
 
         let wanted = self.sense_and_follow(inputs);
         let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
-        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.err(), moving };
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.as_ref().err().copied(), moving };
         let (state, known) = (self.supervisor.state(), self.supervisor.fault());
-        let gate = self.supervisor.judge(inputs, &watched);
+        let gate = near(&mut self.supervisor).judge(inputs, &watched);
         if let (None, Some(fault)) = (known, self.supervisor.fault()) {
             self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
         }
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
-        let nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
-        let (wanted, fenced) = match (gate, wanted) {
+        let nothing;
+        let (wanted, fenced) = match (gate, &wanted) {
             (Gate::Open, Ok(wanted)) => wanted,
-            _ => nothing,
+            _ => {
+                nothing = (Wanted::hold(&self.lengths), Fenced { speeds: Speeds::ZERO, clearance_m: NO_CLEARANCE });
+                &nothing
+            }
         };
-        if let Some(fence) = &mut self.fence {
-            fence.sent(&fenced.speeds);
+        if let Some((_, Some(fence), _)) = self.fitted.as_mut().and_then(|fitted| fitted.borrow_mut().parts()) {
+            near(fence).sent(&fenced.speeds);
         }
         self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
-        self.outputs((gate, inputs.overrun), watched.stage_fault, &wanted, &fenced, &driven)
+        self.outputs((gate, inputs.overrun), watched.stage_fault, wanted, fenced, &driven)
     }
 
     #[inline(always)]
@@ -210,29 +205,31 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         let running = self.supervisor.state() == State::Running;
         // Without a fresh command nothing is wanted, and the supervisor stops what runs.
         let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
-        let result = self.sensing.read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
+        // Nothing is lent but in service.
+        let fitted = self.fitted.as_mut().map(F::borrow_mut).ok_or(Fault::NotConfigured)?;
+        let (machine, mut fence, followers) = fitted.parts().ok_or(Fault::NotConfigured)?;
+        let machine = near(machine);
+        let result = near(&self.sensing).read(inputs).map_err(Fault::Sensor).and_then(|sensed| {
             let suspected = self.diagnosis.fault();
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
                 return Err(fault);
             }
-            let pose = pose(&self.machine, &sensed).map_err(|_| Fault::Geometry)?;
-            (self.lengths, self.pose) = (sensed.lengths, pose);
+            self.pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
+            self.lengths = sensed.lengths;
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
-                let asked = (&intent, inputs.slope);
-                self.motion.follow(&self.machine, running, asked, &pose, &sensed.lengths)?
+                let asked = (&intent, inputs.slope, &inputs.pressures_pa);
+                near(&mut self.motion).follow((machine, followers), running, asked, &self.pose, &sensed.lengths)?
             };
-            let fenced = match &mut self.fence {
-                Some(fence) => fence.limit(&self.machine, &sensed, &wanted.speeds)?,
+            let fenced = match &mut fence {
+                Some(fence) => near(fence).limit(machine, &sensed, &wanted.speeds)?,
                 None => Fenced { speeds: wanted.speeds, clearance_m: NO_CLEARANCE },
             };
             Ok((wanted, fenced))
         });
         if result.is_err() {
             self.motion.reset();
-            if let Some(fence) = &mut self.fence {
-                fence.reset();
-            }
+            fitted.reset();
         }
         result
     }

@@ -33,7 +33,19 @@ pub struct LawParameters {
     pub areas_m2: [[f32; 2]; 3],
     /// What the pump gives to all cylinders together, m³/s.
     pub flow_m3ps: f32,
+    /// Time constant of the feedback: a machine that rings on its oil is not to be followed in it, s.
+    pub feedback_lag_s: f32,
+    /// Lag at which a cylinder all but stops the path's clock, m; the swing at as large a share of its following error.
+    pub lag_m: f32,
+    /// Load in the direction of motion above which boom, arm and bucket run ahead of the oil they are given: \[extend, retract\], N. It
+    /// needs the cylinders' pressures.
+    pub overrun_n: [[f32; 2]; 3],
+    /// Deceleration of the swing above which its inertia does so, rad/s².
+    pub swing_overrun_radps2: f32,
 }
+
+/// Loads and decelerations above any, for actuators that never run ahead.
+pub const NO_OVERRUN: f32 = 1e9;
 
 impl LawParameters {
     /// Checks every value.
@@ -57,6 +69,12 @@ impl LawParameters {
         for area in self.areas_m2.iter().flatten() {
             within("motion.law.areas_m2", (*area).into(), [1e-5, 1.0])?;
         }
-        within("motion.law.flow_m3ps", self.flow_m3ps.into(), [1e-6, 1.0])
+        within("motion.law.flow_m3ps", self.flow_m3ps.into(), [1e-6, 1.0])?;
+        within("motion.law.feedback_lag_s", self.feedback_lag_s.into(), [0.0, 2.0])?;
+        within("motion.law.lag_m", self.lag_m.into(), [0.001, 1.0])?;
+        for load in self.overrun_n.iter().flatten() {
+            within("motion.law.overrun_n", (*load).into(), [1.0, NO_OVERRUN.into()])?;
+        }
+        within("motion.law.swing_overrun_radps2", self.swing_overrun_radps2.into(), [0.001, NO_OVERRUN.into()])
     }
 }

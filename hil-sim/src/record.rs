@@ -52,7 +52,7 @@ pub fn make(source: &str, bucket_file: Option<&Path>) -> Result<Sealed, RecordFi
         .ok_or_else(|| invalid(&file, "`machine`: its `name` must be 1 to 16 printable ASCII characters".to_owned()))?;
     let own = buckets::standard(&scenario.parameters.geometry);
     let buckets = buckets::all(own, bucket_file)?;
-    let record = StoredRecord { machine, parameters: scenario.parameters, buckets };
+    let record = StoredRecord { machine, parameters: scenario.parameters, buckets, mounted: 0 };
     let named = bucket_file.unwrap_or(&file);
     let sealed = Sealed::new(&record).map_err(|fault| invalid(named, fault.to_string()))?;
     // The dig must be within reach with every bucket, or the controller would refuse to start with it.

@@ -8,8 +8,7 @@ use crate::faults::working_scenario;
 use crate::machine_file::MachineFile;
 use crate::place::Host;
 use crate::run::Run;
-use crate::scenario::{LeverMove, Start, Task};
-use crate::shard::Shard;
+use crate::scenario::{LeverMove, Scenario, Start, Task};
 
 /// Length of one run, s: sixty make an hour.
 pub const RUN_S: f64 = 60.0;
@@ -45,20 +44,13 @@ pub fn runs(hours: u32) -> u64 {
     u64::from(hours) * (3600.0 / RUN_S) as u64
 }
 
-/// Lets random operators work; `done` is called after each run. The same runs give the same result in any split.
+/// Lets random operators work these minutes; `done` is called after each. A minute is the same in any company.
 ///
 /// # Errors
 /// The machine cannot be simulated.
-pub fn soak(
-    machine: &MachineFile,
-    hours: u32,
-    seed: u64,
-    shard: Shard,
-    done: impl Fn() + Sync,
-) -> Result<Report, String> {
-    let mine = shard.cases(runs(hours));
-    let count = mine.len();
-    let found: Vec<(f64, Option<Trip>)> = mine
+pub fn soak(machine: &MachineFile, seed: u64, minutes: Vec<u64>, done: impl Fn() + Sync) -> Result<Report, String> {
+    let count = minutes.len();
+    let found: Vec<(f64, Option<Trip>)> = minutes
         .into_par_iter()
         .map(|run| {
             let found = work(machine, seed, run)?;
@@ -75,8 +67,11 @@ pub fn soak(
     })
 }
 
-/// One operator: the way of the cylinders, m, and the first fault.
-fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>), String> {
+/// One operator's minute, and the seed of its noise: start, payload and levers drawn from the case alone.
+///
+/// # Errors
+/// The machine cannot be simulated.
+pub fn minute(machine: &MachineFile, seed: u64, run: u64) -> Result<(Scenario, u64), String> {
     let case = seed ^ (run << 20) ^ 0x50_a4;
     let mut dice = Dice::new(case);
     let g = &machine.geometry;
@@ -88,6 +83,12 @@ fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>
     let payload_kg = dice.within(0.0, 1000.0);
     let mut scenario = working_scenario(machine, start, RUN_S, payload_kg)?;
     scenario.task = Task::Levers { start, moves: moves(&mut dice, scenario.begin_s) };
+    Ok((scenario, case))
+}
+
+/// One operator: the way of the cylinders, m, and the first fault.
+fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>), String> {
+    let (scenario, case) = minute(machine, seed, run)?;
     let mut host = Host::new(&scenario.parameters).map_err(|error| error.to_string())?;
     let run_ = Run::new(&scenario, case).map_err(|error| error.to_string())?;
     let log = run_.complete(&mut host, |_, _| {}).map_err(|error| error.to_string())?;

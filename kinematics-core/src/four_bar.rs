@@ -27,7 +27,6 @@
 //! assert_eq!(Ok(linkage.length_unchecked(bucket)), linkage.length(bucket));
 //! ```
 
-use crate::planning::outline::CommonPin;
 use crate::triangle::{Closed, Moment, Side, Triangle};
 use crate::{Real, Rotor, Vec2};
 
@@ -57,6 +56,15 @@ pub struct FourBar<T> {
     squares: T,
     /// |H|, c and r, for messages.
     sides: [T; 3],
+}
+
+/// The common pin J seen from the bucket pin, in the arm frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CommonPin<T> {
+    /// J − P, m.
+    pub(crate) from_bucket_pin: Vec2<T>,
+    /// Its derivative by θ4, m/rad.
+    pub(crate) per_bucket: Vec2<T>,
 }
 
 /// The linkage at one cylinder length, away from the forward map's dead points: what rotor and rates share.
@@ -165,6 +173,23 @@ impl<T: Real> FourBar<T> {
         (self.squares + (balance * along + discriminant.sqrt() * across) / square).sqrt()
     }
 
+    /// [`FourBar::length_unchecked`] and the moment arm of [`FourBar::moment_arm_at`] there, their work shared; at a dead point of the
+    /// inverse map, where the moment arm has no bound, it is not finite.
+    #[inline(always)]
+    pub(crate) fn length_and_arm_unchecked(&self, rotor: Rotor<T>) -> (T, T) {
+        let d = rotor.rotate(self.coupler_pin) - self.pivot_from_pin;
+        let square = d.norm_squared();
+        let balance = square + self.rocker_balance;
+        let root = (self.four_rocker * square - balance * balance).sqrt();
+        let along = d.dot(self.pivot_from_base);
+        let across = d.cross(self.pivot_from_base);
+        let length = (self.squares + (balance * along + root * across) / square).sqrt();
+        let rocker_side = root * along - balance * across;
+        let coupler_side = root * (square + d.dot(self.pivot_from_pin))
+            + (square - self.rocker_balance) * d.cross(self.pivot_from_pin);
+        (length, -(rocker_side * coupler_side) / ((square + square) * square * (length * root)))
+    }
+
     /// Rotor of θ4 → J as [`FourBar::length`] finds it, with its velocity by θ4: dψ/dθ4 = (j × p)/(s × k) of [`FourBar::moment`].
     pub(crate) fn common_pin(&self, rotor: Rotor<T>) -> Result<CommonPin<T>, Gap<T>> {
         let p = rotor.rotate(self.coupler_pin);
@@ -176,7 +201,8 @@ impl<T: Real> FourBar<T> {
             return Err(self.gap(square, self.sides[2]));
         }
         let s = Vec2::new(balance, discriminant.sqrt_of_magnitude()).complex_mul(k).scale(T::from_f64(0.5) / square);
-        Ok(CommonPin::new(self.pivot_from_pin, s, (self.pivot_from_pin + s).cross(p) / s.cross(k)))
+        let per_bucket = (self.pivot_from_pin + s).cross(p) / s.cross(k);
+        Ok(CommonPin { from_bucket_pin: self.pivot_from_pin + s, per_bucket: Vec2::new(-s.z, s.x).scale(per_bucket) })
     }
 
     /// Cylinder length (m) → moment arm dL/dθ4 (m/rad), by velocities along the coupler:

@@ -207,8 +207,7 @@ impl<T: Real> Machine<T> {
     /// [`PoseError::OutOfStroke`], [`PoseError::NoAssembly`].
     #[inline(always)]
     pub fn joints_to_cylinders(&self, joints: &Joints<T>) -> Result<Cylinders<T>, PoseError<T>> {
-        let [boom, arm, bucket] = &self.sectors;
-        if boom.contains(joints.boom) && arm.contains(joints.arm) && bucket.contains(joints.bucket) {
+        if self.within_sectors(joints) {
             let cylinders = Cylinders {
                 boom: self.boom.length_unchecked(joints.boom),
                 arm: self.arm.length_unchecked(joints.arm),
@@ -220,6 +219,13 @@ impl<T: Real> Machine<T> {
             }
         }
         self.judge(joints)
+    }
+
+    /// Whether every joint lies within its cylinder's stroke.
+    #[inline(always)]
+    pub(crate) fn within_sectors(&self, joints: &Joints<T>) -> bool {
+        let [boom, arm, bucket] = &self.sectors;
+        boom.contains(joints.boom) && arm.contains(joints.arm) && bucket.contains(joints.bucket)
     }
 
     /// The last word on joints outside their sectors: lengths within the tolerance, or the error.

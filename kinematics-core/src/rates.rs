@@ -232,6 +232,51 @@ impl<T: Real> Machine<T> {
         })
     }
 
+    /// [`Machine::joints_to_cylinders`] and [`Machine::moment_arms_at`] of the same joints, their work shared.
+    ///
+    /// ```
+    /// # use kinematics_core::{Cylinders, Machine, PinGeometry};
+    /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+    /// let machine = Machine::<f64>::new(&PinGeometry::EXACT_MINI)?;
+    /// let joints = machine.cylinders_to_joints(&Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 })?;
+    /// let (lengths, arms) = machine.joints_to_cylinders_with_arms(&joints)?;
+    /// assert_eq!(lengths, machine.joints_to_cylinders(&joints)?);
+    /// assert_eq!(arms, machine.moment_arms_at(&joints)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// As both.
+    #[inline(always)]
+    pub fn joints_to_cylinders_with_arms(
+        &self,
+        joints: &Joints<T>,
+    ) -> Result<(Cylinders<T>, MomentArms<T>), PoseError<T>> {
+        if self.within_sectors(joints) {
+            let boom = self.boom.length_unchecked(joints.boom);
+            let arm = self.arm.length_unchecked(joints.arm);
+            let (bucket, bucket_arm) = self.bucket.length_and_arm_unchecked(joints.bucket);
+            // As there; and a moment arm that is not finite leaves not zero but no number.
+            if boom + arm + bucket > T::ZERO && bucket_arm - bucket_arm == T::ZERO {
+                let arms = MomentArms {
+                    boom: self.boom.arm_of(joints.boom, boom),
+                    arm: self.arm.arm_of(joints.arm, arm),
+                    bucket: bucket_arm,
+                };
+                return Ok((Cylinders { boom, arm, bucket }, arms));
+            }
+        }
+        self.judge_with_arms(joints)
+    }
+
+    /// The last word where one of them is in doubt.
+    #[cold]
+    #[inline(never)]
+    fn judge_with_arms(&self, joints: &Joints<T>) -> Result<(Cylinders<T>, MomentArms<T>), PoseError<T>> {
+        Ok((self.joints_to_cylinders(joints)?, self.moment_arms_at(joints)?))
+    }
+
     /// Moment arms and their slopes from cylinder lengths, inside the stroke or not.
     ///
     /// # Errors

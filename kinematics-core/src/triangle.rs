@@ -182,7 +182,13 @@ impl<T: Real> Triangle<T> {
     #[inline(always)]
     pub fn moment_arm_at(&self, rotor: Rotor<T>) -> Result<T, T> {
         let length = self.length(rotor)?;
-        Ok(rotor.to_vec().cross(self.back) / (length + length))
+        Ok(self.arm_of(rotor, length))
+    }
+
+    /// [`Triangle::moment_arm_at`] where the length for this rotor is known.
+    #[inline(always)]
+    pub(crate) fn arm_of(&self, rotor: Rotor<T>, length: T) -> T {
+        rotor.to_vec().cross(self.back) / (length + length)
     }
 
     /// Cylinder length (m) → moment arm and its slope d²L/dθ² = ((u − v)/4 − (dL/dθ)²)/L.

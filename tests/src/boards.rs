@@ -13,6 +13,7 @@ use firmware::board::ads8688::{Ads8688, Device};
 use firmware::board::signals::RANGES;
 use firmware::board::{Parts, Watchdog};
 use firmware::store::{Bucket, MAX_BUCKETS, Name, Sealed, StoredRecord};
+use hil_sim::scenario::Scenario;
 use sim_chips::ads8688::Ads8688 as Chip;
 
 use crate::rig::scenario;
@@ -215,10 +216,25 @@ pub fn record(following_error_m: f32) -> StoredRecord {
     let mut buckets = [None; MAX_BUCKETS];
     buckets[0] = Some(own);
     buckets[1] = Some(Bucket { name: Name::new("ditch").expect("a name"), bucket_m: own.bucket_m * 1.1, ..own });
-    StoredRecord { machine: Name::new("frankel").expect("a name"), parameters, buckets }
+    StoredRecord { machine: Name::new("frankel").expect("a name"), parameters, buckets, mounted: 0 }
 }
 
-/// The same, sealed and approved.
+/// A record of this scenario's machine with its own bucket and, behind it, buckets so many times as long.
+pub fn record_of(scenario: &Scenario, times: &[f64]) -> StoredRecord {
+    let g = &scenario.parameters.geometry;
+    let bucket = |times: f64| Bucket {
+        name: Name::new(&format!("{times} times")).expect("a name"),
+        bucket_m: times * g.bucket_m,
+        coupler_pin: g.bucket.coupler_pin,
+        coupler_m: g.bucket.coupler_m,
+    };
+    let mut buckets = [None; MAX_BUCKETS];
+    buckets.iter_mut().zip([1.0].iter().chain(times)).for_each(|(place, times)| *place = Some(bucket(*times)));
+    let machine = Name::new(&scenario.machine.name).expect("a name");
+    StoredRecord { machine, parameters: scenario.parameters, buckets, mounted: 0 }
+}
+
+/// [`record`], sealed and approved.
 pub fn approved(following_error_m: f32) -> Sealed {
     let mut sealed = Sealed::new(&record(following_error_m)).unwrap_or_else(|fault| panic!("{fault}"));
     sealed.approve();

@@ -2,6 +2,7 @@
 //!
 //! - [`machines`]: the four reference machines' pins as numbers;
 //! - [`boards`]: a board of plain values, and a record to store;
+//! - [`browser`]: a page in headless Chromium, with a probe in it;
 //! - [`golden`]: the golden values, read from `tests/data`;
 //! - [`wide`] and [`oracle`]: the reference the maps are measured against, in double-double arithmetic, by circles;
 //! - [`differences`]: derivatives of the oracle by central differences;
@@ -17,6 +18,7 @@
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
 pub mod boards;
+pub mod browser;
 pub mod can;
 pub mod differences;
 pub mod golden;

@@ -123,6 +123,20 @@ fn a_cycle_digs_swings_dumps_and_comes_back() {
 }
 
 #[test]
+fn the_cycle_is_done_on_the_machines_own_hydraulics_too() {
+    let scenario = scenario("load-and-dump-zx200-hydraulic");
+    let log = run(&scenario, 1);
+    assert!(log.faults.is_empty() && log.stop_hits.is_empty(), "{:?} {:?}", log.faults, log.stop_hits);
+    let degrees = |row: &Row| row.swing.expect("a swing").angle().to_degrees();
+    let farthest = log.rows.iter().map(degrees).fold(0.0, f64::max);
+    let last = log.rows.last().expect("rows");
+    let off = across_path(&scenario, &log);
+    println!("swung to {farthest:.2}°, back to {:.2}°, {off:?}, {:.1} s", degrees(last), took(&log));
+    assert!((farthest - 90.0).abs() < 4.0 && degrees(last).abs() < 1.5);
+    assert!(took(&log) < scenario.duration_s - 1.0 && off.max_m < 0.2);
+}
+
+#[test]
 fn away_from_its_first_knot_a_path_is_refused_and_beyond_the_strokes_it_has_no_controller() {
     let mut parameters = scenario("level-zx200").parameters;
     let mut rig = Rig::standing(&parameters, &[2.4, 2.2, 2.3]);

@@ -140,7 +140,7 @@ fn path(p: &mut Parameters) -> &mut PathParameters {
     p.path.as_mut().expect("a path")
 }
 
-const SPOILT_PATH: [(&str, Spoil); 23] = [
+const SPOILT_PATH: [(&str, Spoil); 27] = [
     ("motion.law.integral_per_s2", |p| law(p).integral_per_s2 = -1.0),
     ("motion.law.bias_limit_mps", |p| law(p).bias_limit_mps = 0.2),
     ("motion.law.correction_limit_mps", |p| law(p).correction_limit_mps = f32::NAN),
@@ -153,6 +153,10 @@ const SPOILT_PATH: [(&str, Spoil); 23] = [
     ("motion.law.swing_following_error_rad", |p| law(p).swing_following_error_rad = 2.0),
     ("motion.law.areas_m2", |p| law(p).areas_m2[1][0] = 0.0),
     ("motion.law.flow_m3ps", |p| law(p).flow_m3ps = 0.0),
+    ("motion.law.feedback_lag_s", |p| law(p).feedback_lag_s = -0.1),
+    ("motion.law.lag_m", |p| law(p).lag_m = 0.0),
+    ("motion.law.overrun_n", |p| law(p).overrun_n[1][1] = 0.0),
+    ("motion.law.swing_overrun_radps2", |p| law(p).swing_overrun_radps2 = f32::NAN),
     ("path.knots", |p| path(p).knots = [None; 9]),
     ("path.knots", |p| path(p).knots.swap(1, 5)),
     ("path.knot.x_m", |p| path(p).knots[0].as_mut().expect("a knot").x_m = f64::NAN),

@@ -1,42 +1,26 @@
 //! Another bucket by command, through the pins: everything built from the geometry is the new bucket's, and nothing is while enabled.
 
+use cross_tests::boards;
 use cross_tests::rig::scenario;
-use firmware::board::Controller;
-use firmware::can::address::Addresses;
 use firmware::service::Task;
-use firmware::simulated::link::NAME;
-use firmware::store::{Bucket, MAX_BUCKETS, Name, StoredRecord};
+use firmware::store::StoredRecord;
 use firmware::{Intent, Outputs, Request};
 use hil_sim::scenario::Scenario;
 use hil_sim::service::{Workshop, numbered};
 use kinematics_core::{Cylinders, Machine};
 
 /// The dig's machine with its own bucket, one a twentieth longer, and one with which the dig is out of reach.
-fn record(scenario: &Scenario) -> &'static StoredRecord {
-    let g = &scenario.parameters.geometry;
-    let bucket = |name: &str, times: f64| Bucket {
-        name: Name::new(name).expect("a name"),
-        bucket_m: times * g.bucket_m,
-        coupler_pin: g.bucket.coupler_pin,
-        coupler_m: g.bucket.coupler_m,
-    };
-    let mut buckets = [None; MAX_BUCKETS];
-    buckets[0] = Some(bucket("own", 1.0));
-    buckets[1] = Some(bucket("longer", 1.05));
-    buckets[2] = Some(bucket("too long", 4.0));
-    let machine = Name::new("zx200").expect("a name");
-    Box::leak(Box::new(StoredRecord { machine, parameters: scenario.parameters, buckets }))
+fn record(scenario: &Scenario) -> StoredRecord {
+    boards::record_of(scenario, &[1.05, 4.0])
 }
 
-/// At the dig's start with this bucket, on a controller built for `built`.
-fn at_the_dig(scenario: &Scenario, record: &'static StoredRecord, built: usize, bucket: usize) -> Workshop {
+/// At the dig's start with this bucket, on a controller that believes in the record's.
+fn at_the_dig(scenario: &Scenario, record: &StoredRecord, bucket: usize) -> Workshop {
     let machine = Machine::<f64>::new(&record.geometry_for(bucket).expect("a bucket")).expect("a geometry");
     let dig = firmware::dig::Dig::<f64>::new(scenario.parameters.dig.as_ref().expect("a dig"));
     let Cylinders { boom, arm, bucket: curl } = machine.tip_to_cylinders(&dig.tip(0.0)).expect("within reach");
     let mut workshop = Workshop::new(scenario, [0.0, boom, arm, curl], 1).expect("a machine");
-    let parameters = record.parameters_for(built).expect("a bucket");
-    workshop.install(Controller::new(&parameters, Addresses::DEFAULT, &NAME).expect("parameters"));
-    workshop.controller.set_buckets(record, built as u8);
+    workshop.start_with(record).expect("a record");
     workshop
 }
 
@@ -52,8 +36,8 @@ fn dig(workshop: &mut Workshop) -> Vec<Outputs> {
 fn after_the_change_the_dig_is_that_of_a_controller_built_for_the_bucket() {
     let scenario = scenario("dig-zx200");
     let record = record(&scenario);
-    let mut changed = at_the_dig(&scenario, record, 0, 1);
-    let mut built = at_the_dig(&scenario, record, 1, 1);
+    let mut changed = at_the_dig(&scenario, &record, 1);
+    let mut built = at_the_dig(&scenario, &StoredRecord { mounted: 1, ..record }, 1);
     for workshop in [&mut changed, &mut built] {
         workshop.rest();
         workshop.ask(numbered(Task::MountBucket, 1));
@@ -71,7 +55,7 @@ fn after_the_change_the_dig_is_that_of_a_controller_built_for_the_bucket() {
 fn the_pose_is_the_new_buckets_from_the_next_tick_on_and_the_old_ones_again_when_it_cannot_be_used() {
     let scenario = scenario("dig-zx200");
     let record = record(&scenario);
-    let mut workshop = at_the_dig(&scenario, record, 0, 0);
+    let mut workshop = at_the_dig(&scenario, &record, 0);
     workshop.rest();
     let tip = |outputs: &Outputs| outputs.pose.plane;
     let own = tip(&workshop.tick());
@@ -104,7 +88,7 @@ fn the_pose_is_the_new_buckets_from_the_next_tick_on_and_the_old_ones_again_when
 fn while_enabled_the_change_is_refused_and_while_it_lasts_nothing_can_be_enabled() {
     let scenario = scenario("dig-zx200");
     let record = record(&scenario);
-    let mut workshop = at_the_dig(&scenario, record, 0, 0);
+    let mut workshop = at_the_dig(&scenario, &record, 0);
     workshop.ticks(500);
     workshop.enable = true;
     workshop.ticks(100);
@@ -113,6 +97,7 @@ fn while_enabled_the_change_is_refused_and_while_it_lasts_nothing_can_be_enabled
     assert_eq!((workshop.heard.phase, workshop.heard.reason, workshop.heard.bucket), ("refused", "enabled", 0));
 
     workshop.rest();
+    workshop.errand_ticks = 1000;
     workshop.request = Some(numbered(Task::MountBucket, 1));
     // The message's way in: at most a period.
     workshop.ticks(25);
@@ -125,7 +110,7 @@ fn while_enabled_the_change_is_refused_and_while_it_lasts_nothing_can_be_enabled
 }
 
 #[test]
-fn without_a_record_of_buckets_there_is_none_to_mount() {
+fn without_a_store_there_is_no_bucket_to_mount() {
     let scenario = scenario("dig-zx200");
     let mut workshop = Workshop::new(&scenario, hil_sim::service::calibrate::middle(&scenario.plant), 1).expect("one");
     workshop.rest();

@@ -1,19 +1,17 @@
 //! Calibration by command, through the pins: a service tool on the bus asks, the controller drives the coils, the answer is on the bus.
 
+use cross_tests::boards::{self, Wire};
 use cross_tests::rig::scenario;
 use firmware::Parameters;
-use firmware::board::{Controller, NotDisabled};
+use firmware::board::Controller;
 use firmware::can::address::Addresses;
-use firmware::service::keep::{KeepError, keep};
 use firmware::service::{Found, Task};
 use firmware::simulated::link::NAME;
-use firmware::store::{Bucket, MAX_BUCKETS, Name, Store, StoredRecord};
 use hil_sim::plant::Plant;
 use hil_sim::scenario::Scenario;
 use hil_sim::service::calibrate::{middle, search, with_random_valves};
 use hil_sim::service::{Workshop, numbered, on_spool};
 use kinematics_core::{Cylinders, Machine, PlaneTip, Rotor, Vec2};
-use sim_chips::nor_flash::NorFlash;
 
 #[test]
 fn randomised_valves_are_found_within_one_percent_of_full_scale_and_three_of_gain() {
@@ -108,6 +106,7 @@ fn a_bucket_is_measured_up_by_command_and_kept_only_with_the_cut_off_open() {
     // The controller believes the bucket longer than it is, and its tip elsewhere.
     let (length, offset) = (geometry.bucket_m - 0.06, Rotor::from_degrees(3.0));
     let mut workshop = workshop(&scenario, &scenario.parameters);
+    workshop.start_with(&boards::record_of(&scenario, &[1.1])).expect("a record");
     let (point, tip) = (Vec2::new(6.5, -1.0), offset.to_vec().scale(length));
     workshop.rest();
     workshop.ask(numbered(Task::Touch, 0));
@@ -132,26 +131,32 @@ fn a_bucket_is_measured_up_by_command_and_kept_only_with_the_cut_off_open() {
     let (off_m, off_rad) = (f64::from(found.length_m) - length, f64::from(found.offset_sin) - offset.sin);
     assert!(off_m.abs() <= 0.002 && off_rad.abs() <= 0.002, "{off_m} m, {off_rad} rad");
 
-    // Keeping it is a command of its own, and nothing is written before.
-    assert_eq!(workshop.controller.ecu().to_keep(), None);
+    // Keeping it is a command of its own, and nothing is written before, nor while the board is not proved disabled.
+    let mut store = workshop.store.take().expect("a store");
+    let before = store.flash().changed();
     workshop.ask(numbered(Task::Keep, 0));
-    let due = *workshop.controller.ecu().to_keep().expect("asked for");
-    let record = record(&scenario);
-    let mut store = Store::new(NorFlash::<4096>::new()).expect("two sectors");
-    let mut welded = cross_tests::boards::board();
-    welded.cut_off_read_back = cross_tests::boards::Wire::new(true);
-    let refused = keep(&due, (&record, 0), &mut welded, &mut store);
-    assert_eq!(refused, Err(KeepError::NotDisabled(NotDisabled::CutOffClosed)));
-    assert_eq!(store.flash().changed(), 0);
-    assert_eq!(keep(&due, (&record, 0), &mut cross_tests::boards::board(), &mut store), Ok(1));
-    workshop.controller.ecu().kept(true);
+    assert_eq!((workshop.heard.task, workshop.heard.phase), ("keep", "under_way"));
+    let mut welded = boards::board();
+    welded.cut_off_read_back = Wire::new(true);
+    assert!(workshop.controller.errand(&mut welded).is_none(), "the cut-off reads closed");
     workshop.ticks(200);
+    assert_eq!((workshop.heard.phase, workshop.heard.reason), ("refused", "enabled"));
+    assert_eq!(store.flash().changed(), before);
+    workshop.store = Some(store);
+    workshop.rest();
+    workshop.ask(numbered(Task::Keep, 0));
     assert_eq!((workshop.heard.task, workshop.heard.phase), ("keep", "done"));
+    let store = workshop.store.as_mut().expect("a store");
     let kept = store.load().expect("approved").record.geometry_for(0).expect("a bucket");
     assert!((kept.bucket_m - length).abs() < 0.002);
     // The tip lies on the bucket's x axis again: the coupler pin has turned with it.
     let pin = offset.inverse().rotate(geometry.bucket.coupler_pin);
     assert!((kept.bucket.coupler_pin.x - pin.x).abs() < 0.002 && (kept.bucket.coupler_pin.z - pin.z).abs() < 0.002);
+
+    // The store's record is not any more the one the controller works with: no bucket of it is mounted before the restart.
+    workshop.rest();
+    workshop.ask(numbered(Task::MountBucket, 1));
+    assert_eq!((workshop.heard.phase, workshop.heard.reason), ("refused", "restart_first"));
 }
 
 #[test]
@@ -171,22 +176,10 @@ fn found_values_in_the_record_are_the_valves_own() {
     use firmware::parameters::ValveDirection;
     let scenario = scenario("dig-zx200");
     let found = [0.11, 0.22].map(|dead_band| ValveDirection { dead_band, full_speed: 0.5 + dead_band });
-    let kept = Found::Valve(2, found).in_record(&record(&scenario), 0).expect("a valid record");
+    let kept = Found::Valve(2, found).in_record(&boards::record_of(&scenario, &[]), 0).expect("a valid record");
     assert_eq!(kept.parameters.coils.valves()[2].map(|v| v.full_speed), found.map(|v| v.full_speed));
     for (kept, found) in kept.parameters.coils.valves()[2].iter().zip(found) {
         assert!((kept.dead_band - found.dead_band).abs() < 1e-6);
     }
     assert_eq!(kept.parameters.coils.valves()[1], scenario.parameters.coils.valves()[1]);
-}
-
-fn record(scenario: &Scenario) -> StoredRecord {
-    let g = &scenario.parameters.geometry;
-    let mut buckets = [None; MAX_BUCKETS];
-    buckets[0] = Some(Bucket {
-        name: Name::new("own").expect("a name"),
-        bucket_m: g.bucket_m,
-        coupler_pin: g.bucket.coupler_pin,
-        coupler_m: g.bucket.coupler_m,
-    });
-    StoredRecord { machine: Name::new("zx200").expect("a name"), parameters: scenario.parameters, buckets }
 }

@@ -9,7 +9,7 @@ const SECTOR: usize = 4096;
 type Flash = NorFlash<SECTOR>;
 
 fn write(store: &mut Store<Flash>, sealed: &Sealed) -> bool {
-    store.write(Disabled::new(&mut board()).unwrap(), sealed).is_ok()
+    store.write(&Disabled::new(&mut board()).unwrap(), sealed).is_ok()
 }
 
 /// A store that holds the old record, in both sectors.

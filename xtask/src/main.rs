@@ -1,13 +1,14 @@
 //! Project tasks that need more than one cargo command: the whole test suite with the emulator, the ARM images,
 //! the lints. Only std, so that `cargo xtask` builds in a second on a fresh machine.
 //!
-//! - [`arm`] finds or installs a compiler for the ECU, [`emulator`] finds or installs QEMU, both through [`packages`];
+//! - [`arm`] finds or installs a compiler for the ECU, [`emulator`] QEMU and [`browser`] Chromium, all through [`packages`];
 //!   [`cantools`] installs the DBC parser;
 //! - [`image`] builds the images and has [`elf`] look at what was linked;
 //! - [`tests`] runs the suite and counts with [`tally`];
 //! - [`lint`] is formatting, clippy and rustdoc; [`process`] runs the children of all of them.
 
 mod arm;
+mod browser;
 mod cantools;
 mod elf;
 mod emulator;
@@ -24,8 +25,8 @@ const USAGE: &str = "\
 Usage: cargo xtask COMMAND
 
 Commands:
-  test            host tests, then the ARM images, then the tests that run them in the emulator;
-                  installs the ARM target, qemu-system-arm and Python's cantools where they are missing.
+  test            host tests, then the ARM images, then the tests that run them in the emulator or look at a page;
+                  installs the ARM target, qemu-system-arm, Chromium and Python's cantools where they are missing.
                   Closing line: N passed, N failed, N skipped
   image [NAME…]   build the ARM images (default: all) and print the path of each ELF on standard output
   lint            formatting, clippy and rustdoc, warnings are errors

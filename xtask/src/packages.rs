@@ -11,16 +11,19 @@ struct Manager {
     needs_root: bool,
     /// The package with `qemu-system-arm`.
     emulator: &'static str,
+    /// The package with Chromium.
+    browser: &'static str,
 }
 
 // `--no-remove`: nothing that is already on the machine may go because of us.
-const MANAGERS: [Manager; 4] = [
+static MANAGERS: [Manager; 4] = [
     Manager {
         program: "apt-get",
         refresh: &["-o", "DPkg::Lock::Timeout=300", "update"],
         install: &["-o", "DPkg::Lock::Timeout=300", "install", "-y", "--no-install-recommends", "--no-remove"],
         needs_root: true,
         emulator: "qemu-system-arm",
+        browser: "chromium",
     },
     Manager {
         program: "dnf",
@@ -28,6 +31,7 @@ const MANAGERS: [Manager; 4] = [
         install: &["install", "-y"],
         needs_root: true,
         emulator: "qemu-system-arm",
+        browser: "chromium",
     },
     Manager {
         program: "pacman",
@@ -35,8 +39,16 @@ const MANAGERS: [Manager; 4] = [
         install: &["-Sy", "--noconfirm", "--needed"],
         needs_root: true,
         emulator: "qemu-system-arm",
+        browser: "chromium",
     },
-    Manager { program: "brew", refresh: &[], install: &["install"], needs_root: false, emulator: "qemu" },
+    Manager {
+        program: "brew",
+        refresh: &[],
+        install: &["install"],
+        needs_root: false,
+        emulator: "qemu",
+        browser: "chromium",
+    },
 ];
 
 /// What to tell a user who has to install the emulator himself.
@@ -45,8 +57,18 @@ pub(crate) const EMULATOR_BY_HAND: &str =
 
 /// Installs the package that has `qemu-system-arm`, with the first package manager on this machine.
 pub(crate) fn install_emulator() -> Outcome<()> {
-    let manager = MANAGERS.iter().find(|manager| exists(manager.program)).ok_or("no package manager found")?;
+    let manager = first()?;
     install(manager, &[manager.emulator])
+}
+
+/// Installs the package that has Chromium, the same way.
+pub(crate) fn install_browser() -> Outcome<()> {
+    let manager = first()?;
+    install(manager, &[manager.browser])
+}
+
+fn first() -> Outcome<&'static Manager> {
+    MANAGERS.iter().find(|manager| exists(manager.program)).ok_or_else(|| "no package manager found".to_owned())
 }
 
 /// Installs Debian packages; an error where there is no `apt-get`.

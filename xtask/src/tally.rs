@@ -1,7 +1,7 @@
-//! Reads what the test harness prints: the counts, and which tests wait for what this task installs: the emulator, or cantools.
+//! Reads what the test harness prints: the counts, and which tests wait for what this task installs: the emulator, cantools, Chromium.
 
 /// The reasons that mark a test as one for this task, such as `#[ignore = "needs the emulator: run cargo xtask test"]`.
-const REASONS: [&str; 2] = ["needs the emulator", "needs cantools"];
+const REASONS: [&str; 3] = ["needs the emulator", "needs cantools", "needs Chromium"];
 
 /// The sums of all `test result:` lines of one run, and the tests it left to the second run.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -84,12 +84,13 @@ mod counting {
         let names = tally(
             "test poses::host_equals_emulator ... ignored, needs the emulator: run cargo xtask test\n\
              test frames::decode ... ignored, needs cantools: run cargo xtask test\n\
+             test pages::play ... ignored, needs Chromium: run cargo xtask test\n\
              test slow ... ignored, takes an hour\n\
              test plain ... ignored\n\
              test overflow - should panic ... ignored, needs the emulator: run cargo xtask test\n\
              test needs the emulator ... ok\n",
         );
-        assert_eq!(names.for_emulator, ["poses::host_equals_emulator", "frames::decode", "overflow"]);
+        assert_eq!(names.for_emulator, ["poses::host_equals_emulator", "frames::decode", "pages::play", "overflow"]);
     }
 
     #[test]

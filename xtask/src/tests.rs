@@ -1,4 +1,4 @@
-//! The whole suite: host tests, ARM images, the tests that wait for emulator or cantools, one closing line.
+//! The whole suite: host tests, ARM images, the tests that wait for emulator, cantools or Chromium, one closing line.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -7,13 +7,14 @@ use std::io;
 use crate::arm::{self, Toolchain};
 use crate::process::{Outcome, announce, cargo, line, stream};
 use crate::tally::Tally;
-use crate::{cantools, emulator, image};
+use crate::{browser, cantools, emulator, image};
 
 /// `cargo xtask test`: false when anything failed, was missing or did not run.
 pub(crate) fn command() -> Outcome<bool> {
     let toolchain = arm::ensure()?;
     emulator::ensure()?;
     cantools::ensure()?;
+    browser::ensure()?;
 
     let mut problems = Vec::new();
     announce("host tests");
@@ -41,9 +42,9 @@ pub(crate) fn command() -> Outcome<bool> {
     Ok(problems.is_empty())
 }
 
-/// Runs what the host run left to emulator and cantools, by name, and insists that all of it ran.
+/// Runs what the host run left to emulator, cantools and Chromium, by name, and insists that all of it ran.
 fn emulator_tests(host: &Tally, toolchain: &Toolchain, problems: &mut Vec<String>) -> Outcome<Tally> {
-    announce(&format!("emulator and cantools tests ({})", host.for_emulator.len()));
+    announce(&format!("emulator, cantools and Chromium tests ({})", host.for_emulator.len()));
     if host.for_emulator.is_empty() {
         problems.push("there is no emulator test to run; the suite is not complete without any".into());
         return Ok(Tally::default());

@@ -5,22 +5,21 @@ use core::borrow::BorrowMut;
 use embedded_can::nb::Can;
 
 use super::signals::Measured;
-use super::{Board, BoardError, Switches};
+use super::{Board, BoardError, Disabled, Switches};
 use crate::can::address::{AddressError, Addresses, Name};
 use crate::can::dm1::ActiveFaults;
 use crate::can::{CanFrame, Node};
 use crate::command::Intent;
 use crate::io::{Inputs, Outputs};
-use crate::motion::Followers;
-use crate::store::StoredRecord;
-use crate::{Ecu, Fault, ParameterError, Parameters, SelfTest};
+use crate::service::{Done, Errand};
+use crate::{Ecu, Fault, Fitted, ParameterError, Parameters, SelfTest};
 
 /// CAN frames taken in a tick: 500 kbit/s carry no more than four in a millisecond.
 const FRAMES: usize = 4;
 
 /// The application and its place on the bus; `F` as in [`Ecu`].
 #[derive(Clone, Debug)]
-pub struct Controller<F = Followers> {
+pub struct Controller<F = Fitted> {
     ecu: Ecu<F>,
     node: Node,
 }
@@ -46,16 +45,16 @@ impl core::fmt::Display for ControllerError {
 impl core::error::Error for ControllerError {}
 
 impl Controller {
-    /// [`Controller::with`] followers of its own.
+    /// [`Controller::with`] a memory of its own.
     ///
     /// # Errors
     /// As there.
     pub fn new(parameters: &Parameters, addresses: Addresses, name: &Name) -> Result<Self, ControllerError> {
-        Self::with(parameters, addresses, name, Followers::new())
+        Self::with(parameters, addresses, name, Fitted::new())
     }
 }
 
-impl<F: BorrowMut<Followers>> Controller<F> {
+impl<F: BorrowMut<Fitted>> Controller<F> {
     /// Builds the application and its node.
     ///
     /// # Errors
@@ -64,18 +63,40 @@ impl<F: BorrowMut<Followers>> Controller<F> {
         parameters: &Parameters,
         addresses: Addresses,
         name: &Name,
-        followers: F,
+        fitted: F,
     ) -> Result<Self, ControllerError> {
         Ok(Self {
-            ecu: Ecu::with(parameters, followers).map_err(ControllerError::Parameter)?,
+            ecu: Ecu::with(parameters, fitted).map_err(ControllerError::Parameter)?,
             node: Node::new(addresses, name).map_err(ControllerError::Address)?,
         })
     }
 
-    /// Gives the record whose buckets can be mounted by command, and which of them is mounted: the one whose parameters the controller
-    /// was built from.
-    pub fn set_buckets(&mut self, record: &'static StoredRecord, mounted: u8) {
-        self.ecu.set_buckets(record, mounted);
+    /// As [`Ecu::set_buckets`].
+    pub fn set_buckets(&mut self, count: u8, mounted: u8) {
+        self.ecu.set_buckets(count, mounted);
+    }
+
+    /// After [`Self::write`]: an errand that is due, once the board is proved disabled. It is run where a tick may interrupt it, and
+    /// comes back by [`Self::done`].
+    pub fn errand<B: Board>(&mut self, board: &mut B) -> Option<Errand<F>> {
+        if self.ecu.errand_is_due() { self.errand_now(board) } else { None }
+    }
+
+    #[inline(never)]
+    fn errand_now<B: Board>(&mut self, board: &mut B) -> Option<Errand<F>> {
+        match Disabled::new(board) {
+            Ok(permit) => self.ecu.errand(permit),
+            Err(_) => {
+                self.ecu.not_disabled();
+                None
+            }
+        }
+    }
+
+    /// Before [`Self::read`]: an errand is back.
+    #[inline(never)]
+    pub fn done(&mut self, done: Done<F>) {
+        self.ecu.done(done);
     }
 
     /// The application.

@@ -4,12 +4,11 @@ use core::fmt;
 
 use super::{Board, BoardError};
 
-/// The board with every solenoid off and the cut-off open, seen by its read-back. While this lives the board is borrowed: nothing
-/// can drive it. Writing flash asks for one, because the STM32F405 stands still while it erases.
+/// The board had every solenoid off and the cut-off open, seen by its read-back. Whoever makes one lets nothing drive until it is gone:
+/// [`super::Controller`] holds everything off until the errand it gave one to is back. Writing flash asks for one, because the STM32F405
+/// stands still while it erases.
 #[derive(Debug)]
-pub struct Disabled<'a, B> {
-    board: &'a mut B,
-}
+pub struct Disabled(());
 
 /// Why a board cannot be proved disabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,23 +30,18 @@ impl fmt::Display for NotDisabled {
 
 impl core::error::Error for NotDisabled {}
 
-impl<'a, B: Board> Disabled<'a, B> {
+impl Disabled {
     /// Switches everything off and looks whether it is.
     ///
     /// # Errors
     /// What failed; everything that could be switched off is off all the same.
-    pub fn new(board: &'a mut B) -> Result<Self, NotDisabled> {
+    pub fn new<B: Board>(board: &mut B) -> Result<Self, NotDisabled> {
         let driven = board.drive(&[[0; 2]; 4]);
         let opened = board.set_cut_off(false);
         driven.and(opened).map_err(NotDisabled::Board)?;
         if board.cut_off_is_closed().map_err(NotDisabled::Board)? {
             return Err(NotDisabled::CutOffClosed);
         }
-        Ok(Self { board })
-    }
-
-    /// Restarts the watchdog between two long operations.
-    pub fn feed_watchdog(&mut self) {
-        self.board.feed_watchdog();
+        Ok(Self(()))
     }
 }

@@ -143,7 +143,7 @@ impl Channel {
         self.changes = (self.changes + f32::from(change) * self.unit) * KEPT;
         let speed = self.speed();
         self.moving = speed > self.speed_margin || speed < -self.speed_margin;
-        let (low, high) = self.envelope.follow(model, command, turned);
+        let (low, high) = self.envelope.follow(model, command, speed, turned);
         let margin = self.speed_margin + model.coupling * others * self.full;
         self.inside = speed <= high + margin && speed >= low - margin;
         self.against = command * speed < 0.0;

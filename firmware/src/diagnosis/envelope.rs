@@ -1,11 +1,16 @@
 //! The delay model: what speeds a healthy actuator may have after its commands so far, and which it must have.
 //!
 //! Dead time lies between none and the longest, so speed may be anything between the lowest and the highest command of that time. After
-//! the highest it may fall off in a straight line over the run-on, and a released speed may ring back by its share. The speed it must
-//! have is the command nearest to zero of that time, less what may still run on the other way, behind the slowest spool.
+//! the highest it may fall off in a straight line over the run-on, and a released speed may ring back by its share. What runs on from the
+//! end of the dead time is at most what was measured until then; and a mass on closed oil swings on as long as each swing is about as fast
+//! as the one before it the other way. The speed it must have is the command nearest to zero of that time, less what may still run on the
+//! other way, behind the slowest spool.
 
 use super::ROUND_S;
 use super::parameters::DiagnosisParameters;
+
+/// What was measured counts so many times: the memory of it fades by a fifth in half a swing of 0.8 s.
+const MEASURED: f32 = 1.25;
 
 /// What all actuators calculate with.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +93,10 @@ pub(super) struct Envelope {
     before: Span,
     out: RunOn,
     back: RunOn,
+    /// Fastest measured speeds out and back, the older the less.
+    swung: [f32; 2],
+    /// Commands are over, the longest dead time too.
+    released: bool,
     sure: f32,
 }
 
@@ -104,9 +113,9 @@ impl Envelope {
         if out > back { out } else { back }
     }
 
-    /// One round under this command, `turned` at the end of every span: lowest and highest speed.
+    /// One round under this command with this measured speed, `turned` at the end of every span: lowest and highest speed.
     #[inline(always)]
-    pub(super) fn follow(&mut self, model: &Model, command: f32, turned: bool) -> (f32, f32) {
+    pub(super) fn follow(&mut self, model: &Model, command: f32, speed: f32, turned: bool) -> (f32, f32) {
         let command_now = Span { low: command, high: command };
         self.now = self.now.and(command_now);
         let Span { low, high } = self.now.and(self.before);
@@ -118,6 +127,12 @@ impl Envelope {
         }
         self.out.follow(high, model.run_on_share);
         self.back.follow(-low, model.run_on_share);
+        self.swing(model, speed);
+        let released = low == 0.0 && high == 0.0;
+        if released && !self.released {
+            self.release(model);
+        }
+        self.released = released;
         let (out, back) = (self.out.level, self.back.level);
         // What may still run on the other way is owed.
         let must = if low > back {
@@ -132,6 +147,34 @@ impl Envelope {
         self.sure += (must - self.sure) * model.lag_share;
         let bounce = model.calmer * command;
         let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
-        (-(model.over * back + model.ring * out - bounce_out), model.over * out + model.ring * back - bounce_back)
+        let [swung_out, swung_back] = if released { self.swung } else { [0.0; 2] };
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let rung_back = larger(model.ring * out, MEASURED * swung_out);
+        let rung_out = larger(model.ring * back, MEASURED * swung_back);
+        (-(model.over * back + rung_back - bounce_out), model.over * out + rung_out - bounce_back)
+    }
+
+    /// What runs on from here is at most what was measured.
+    fn release(&mut self, model: &Model) {
+        let [out, back] = self.swung;
+        let most = MEASURED * if out > back { out } else { back } / model.over;
+        for run_on in [&mut self.out, &mut self.back] {
+            if run_on.level > most {
+                *run_on = RunOn { level: most, slope: most * model.run_on_share };
+            }
+        }
+    }
+
+    /// Remembers how fast it went either way: on closed oil a mass is hardly damped, and swings on when the run-on is over.
+    #[inline(always)]
+    fn swing(&mut self, model: &Model, speed: f32) {
+        let [out, back] = &mut self.swung;
+        *out -= *out * model.run_on_share;
+        *back -= *back * model.run_on_share;
+        if speed > *out {
+            *out = speed;
+        } else if -speed > *back {
+            *back = -speed;
+        }
     }
 }

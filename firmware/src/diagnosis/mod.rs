@@ -52,6 +52,8 @@ pub struct Diagnosis {
     /// What the valves were last told.
     sent: [f32; 4],
     free: Free,
+    /// The largest activity of all actuators but the one whose turn is next.
+    others: f32,
     /// Ticks of this round.
     tick: u8,
     /// Rounds until the span of commands under way ends.
@@ -71,6 +73,7 @@ impl Diagnosis {
             model,
             sent: [0.0; 4],
             free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },
+            others: 0.0,
             tick: 0,
             until_turn: model.span_rounds,
             begun: false,
@@ -93,14 +96,15 @@ impl Diagnosis {
             channel.sample(*code);
         }
         let number = usize::from(self.tick / 2);
-        let others = if self.tick.is_multiple_of(2) { self.others(number) } else { 0.0 };
         let turned = self.until_turn == 0;
         if let (Some(channel), Some(command)) = (self.channels.get_mut(number), self.sent.get(number)) {
             if self.tick.is_multiple_of(2) {
-                channel.measure(&self.model, *command, others, turned);
+                channel.measure(&self.model, *command, self.others, turned);
             } else {
                 // The swing, number 0, has none.
                 channel.look(self.free, number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder)));
+                // In the tick that has less to do: what it is told from changes only with a measurement.
+                self.others = self.others((number + 1) % ACTUATORS.len());
             }
         }
         self.tick += 1;
@@ -119,7 +123,7 @@ impl Diagnosis {
         }
         let jumped = self.fault();
         self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.restart(*code));
-        self.sent = [0.0; 4];
+        (self.sent, self.others) = ([0.0; 4], 0.0);
         jumped
     }
 

@@ -52,7 +52,8 @@ pub struct DiagnosisParameters {
     pub spool_lag_s: f32,
     /// Longest run-on after the dead time of a release, s.
     pub run_on_s: f32,
-    /// Share of the command by which speed may overshoot it.
+    /// Share of the command by which speed may overshoot it: it rings, and a weight drives oil through the outlet edge faster than the pump
+    /// would. It costs nothing after the release: what runs on then is at most what was measured.
     pub overshoot: f32,
     /// Share of a released speed that may ring back.
     pub ring: f32,
@@ -74,7 +75,7 @@ impl DiagnosisParameters {
             latest_start_s: 0.25,
             spool_lag_s: 0.1,
             run_on_s: 2.0,
-            overshoot: 0.75,
+            overshoot: 1.5,
             ring: 1.0,
             coupling: 1.5,
             rebound: 0.5,

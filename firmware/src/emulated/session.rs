@@ -4,7 +4,7 @@ use firmware::board::Controller;
 use firmware::can::address::Addresses;
 use firmware::simulated::link::{NAME, RECORD_BYTES, REFUSAL_BYTES, REQUEST_BYTES, Reply, Request};
 use firmware::simulated::{SimulatedBoard, Wires};
-use firmware::{Followers, Parameters, SelfTest};
+use firmware::{Fitted, Parameters, SelfTest};
 
 use super::link::{Link, LinkLost};
 use super::stopwatch::Stopwatch;
@@ -12,23 +12,23 @@ use super::stopwatch::Stopwatch;
 /// Everything a tick needs.
 pub(crate) struct Session {
     pub(crate) link: Link,
-    pub(crate) controller: Controller<&'static mut Followers>,
+    pub(crate) controller: Controller<&'static mut Fitted>,
     pub(crate) stopwatch: Stopwatch,
     board: SimulatedBoard,
     /// Address and size of what planned motion needs of memory.
-    followers: [usize; 2],
+    fitted: [usize; 2],
 }
 
 impl Session {
     /// Where the controller's memory lies beside itself, and how many bytes.
-    pub(crate) fn followers_at(&self) -> (*mut u8, usize) {
-        let [address, bytes] = self.followers;
+    pub(crate) fn fitted_at(&self) -> (*mut u8, usize) {
+        let [address, bytes] = self.fitted;
         (core::ptr::with_exposed_provenance_mut(address), bytes)
     }
 
     /// Takes the parameter record and answers with the error's text, empty when the application was built.
-    pub(crate) fn open(stopwatch: Stopwatch, followers: &'static mut Followers) -> Result<Self, LinkLost> {
-        let at = [core::ptr::from_mut(followers).expose_provenance(), size_of::<Followers>()];
+    pub(crate) fn open(stopwatch: Stopwatch, fitted: &'static mut Fitted) -> Result<Self, LinkLost> {
+        let at = [core::ptr::from_mut(fitted).expose_provenance(), size_of::<Fitted>()];
         let mut link = Link::open()?;
         let mut length = [0; 4];
         link.read(&mut length)?;
@@ -37,7 +37,7 @@ impl Session {
         link.read(record)?;
         let mut text = Text::default();
         let built = match postcard::from_bytes::<Parameters>(record) {
-            Ok(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, followers)
+            Ok(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, fitted)
                 .map(|mut controller| {
                     // The emulated board has none of the parts that the self-test tries.
                     controller.self_tested(&SelfTest::PASSED);
@@ -53,7 +53,7 @@ impl Session {
         link.write(text.as_bytes())?;
         let controller = built.map_err(|()| LinkLost)?;
         let board = SimulatedBoard::new().map_err(|_| LinkLost)?;
-        Ok(Self { link, controller, stopwatch, board, followers: at })
+        Ok(Self { link, controller, stopwatch, board, fitted: at })
     }
 
     /// What the harness asks for next.

@@ -65,7 +65,7 @@ fn turned_by(angle: f32) -> Rotor<f32> {
 }
 
 /// The fence stage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Fence {
     sweep: Sweep,
     swing: Swing,

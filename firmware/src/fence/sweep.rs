@@ -47,7 +47,7 @@ const WORK: usize = 13;
 const TICKS_PER_LIMIT: usize = 3;
 
 /// What is near, by the last complete sweep, and the sweep under way.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Sweep {
     outline: Outline<f32>,
     fence: Fence<f32>,

@@ -6,6 +6,7 @@ use super::Wanted;
 use super::delays::Delays;
 use super::law::Law;
 use super::limits::Limits;
+use super::overrun::Overrun;
 use crate::fault::Fault;
 use crate::io::{Speeds, limited};
 use crate::law::LawParameters;
@@ -26,6 +27,7 @@ pub(super) struct Ahead {
 pub(super) struct Coordination {
     pub(super) law: Law,
     pub(super) limits: Limits,
+    pub(super) overrun: Overrun,
     share: f32,
     /// What stopping takes, s²/m: half over the acceleration.
     stopping: [f32; 3],
@@ -37,7 +39,7 @@ impl Coordination {
     pub(super) fn new(law: Law, limits: Limits, p: &LawParameters) -> Self {
         let [_, boom, arm, bucket] = p.acceleration;
         let stopping = [boom, arm, bucket].map(|acceleration| 0.5 / acceleration);
-        Self { law, limits, share: 1.0 - p.reserve, stopping, speeds: [0.0; 4] }
+        Self { law, limits, overrun: Overrun::new(p), share: 1.0 - p.reserve, stopping, speeds: [0.0; 4] }
     }
 
     /// Speed of the swing's actuator for a rad/s of swing: 1 of a motor, the moment arm of a cylinder.
@@ -53,7 +55,9 @@ impl Coordination {
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, self.share);
         let before_ends = self.limits.before_ends(ahead, &speeds);
-        if before_ends < factor { before_ends } else { factor }
+        let factor = if before_ends < factor { before_ends } else { factor };
+        let pace = self.law.pace();
+        if pace < factor { pace } else { factor }
     }
 
     /// Where the cylinders will stand when what is under way and slowing down is done; the law is begun from there.
@@ -90,6 +94,7 @@ impl Coordination {
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         let Ahead { start, lengths: then, feed_forward, swing } = ahead;
+        let [turning, ..] = feed_forward;
         let [first, turned] = swing.unwrap_or([0.0; 2]);
         let moved = [then.boom - start.boom, then.arm - start.arm, then.bucket - start.bucket];
         let (turned, [boom, arm, bucket]) = self.law.reference(delays, moved, swing.map(|_| turned));
@@ -102,6 +107,8 @@ impl Coordination {
         let errors =
             [off, reference.boom - lengths.boom, reference.arm - lengths.arm, reference.bucket - lengths.bucket];
         let [swing, boom, arm, bucket] = self.law.speeds(*feed_forward, errors, ahead.swing.is_some())?;
+        let [boom, arm, bucket] = self.overrun.told([boom, arm, bucket]);
+        let swing = if ahead.swing.is_some() { self.overrun.told_swing(*turning, swing) } else { 0.0 };
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, 1.0);
         Ok(Wanted { speeds: Speeds::from_array(speeds.map(|speed| speed * factor)), reference, dig_tick: 0 })

@@ -12,7 +12,7 @@ impl Creep {
 
     pub(super) fn pass(&mut self, speed: f32, smallest: f32) -> f32 {
         let threshold = if self.moving { 0.5 * smallest } else { smallest };
-        self.moving = speed >= threshold || speed <= -threshold;
+        self.moving = speed.abs() >= threshold;
         if self.moving { speed } else { 0.0 }
     }
 }

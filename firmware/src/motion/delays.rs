@@ -5,20 +5,16 @@ use super::delay::DelayLine;
 use crate::TICKS_PER_S;
 use crate::parameters::MotionParameters;
 
-/// Numbers that the cylinders' lines keep: 256 times three or 128 times six.
-const OF_CYLINDERS: usize = 768;
-
-/// Numbers that all of a mode's lines keep.
-const KEPT: usize = OF_CYLINDERS + 128 * 2;
+/// Numbers that the lines keep: 128 times eight or 256 times three.
+const KEPT: usize = 128 * 8;
 
 /// Values of a preview. Filled in place, in memory of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Delays {
     /// Cylinder lengths that a dig saw ahead, until their time comes. What was computed once is not computed again.
     dig: DelayLine<3, 256>,
-    /// Places ahead relative to the start, and corrections given.
-    cylinders: DelayLine<6, 128>,
-    swing: DelayLine<2, 128>,
+    /// Places ahead relative to the start, and corrections given, of cylinders and swing: one line, so that when is told once for all.
+    modes: DelayLine<8, 128>,
     /// How far a planned move is.
     planned: DelayLine<1, 256>,
     kept: [f32; KEPT],
@@ -32,13 +28,7 @@ pub(super) fn preview_ticks(motion: &MotionParameters) -> u32 {
 impl Delays {
     /// Of nothing.
     pub(super) const fn new() -> Self {
-        Self {
-            dig: DelayLine::new(),
-            cylinders: DelayLine::new(),
-            swing: DelayLine::new(),
-            planned: DelayLine::new(),
-            kept: [0.0; KEPT],
-        }
+        Self { dig: DelayLine::new(), modes: DelayLine::new(), planned: DelayLine::new(), kept: [0.0; KEPT] }
     }
 
     /// For a dig that begins at `start`.
@@ -54,14 +44,12 @@ impl Delays {
 
     /// For the coordinated modes.
     pub(super) fn set_modes(&mut self, preview_ticks: u32) {
-        self.cylinders.set_delay(preview_ticks);
-        self.swing.set_delay(preview_ticks);
+        self.modes.set_delay(preview_ticks);
     }
 
     /// As [`DelayLine::pass`], of a dig.
     pub(super) fn dig(&mut self, tick: u32, values: [f32; 3]) -> [f32; 3] {
-        let (cylinders, _) = self.kept.split_at_mut(OF_CYLINDERS);
-        self.dig.pass(cylinders.as_chunks_mut().0, tick, values)
+        self.dig.pass(self.kept.as_chunks_mut().0, tick, values)
     }
 
     /// As [`DelayLine::pass`], of a planned move.
@@ -69,18 +57,10 @@ impl Delays {
         self.planned.pass(self.kept.as_chunks_mut().0, tick, values)
     }
 
-    /// As [`DelayLine::pass`], of the cylinders in a coordinated mode.
+    /// As [`DelayLine::pass`], of a coordinated mode.
     #[inline(always)]
-    pub(super) fn cylinders(&mut self, tick: u32, values: [f32; 6]) -> [f32; 6] {
-        let (cylinders, _) = self.kept.split_at_mut(OF_CYLINDERS);
-        self.cylinders.pass(cylinders.as_chunks_mut().0, tick, values)
-    }
-
-    /// As [`DelayLine::pass`], of the swing in a coordinated mode.
-    #[inline(always)]
-    pub(super) fn swing(&mut self, tick: u32, values: [f32; 2]) -> [f32; 2] {
-        let (_, swing) = self.kept.split_at_mut(OF_CYLINDERS);
-        self.swing.pass(swing.as_chunks_mut().0, tick, values)
+    pub(super) fn modes(&mut self, tick: u32, values: [f32; 8]) -> [f32; 8] {
+        self.modes.pass(self.kept.as_chunks_mut().0, tick, values)
     }
 }
 
@@ -97,9 +77,7 @@ mod tests {
         for _ in 0..2 {
             for tick in 1..=700 {
                 let then = if tick > 150 { (tick - 150) as f32 } else { 0.0 };
-                let [cylinder, .., last] = delays.cylinders(tick, [tick as f32; 6]);
-                let [swing, _] = delays.swing(tick, [tick as f32; 2]);
-                assert_eq!([cylinder, last, swing], [then; 3], "{tick}");
+                assert_eq!(delays.modes(tick, [tick as f32; 8]), [then; 8], "{tick}");
             }
             for tick in 1..=700 {
                 let then = if tick > 150 { (tick - 150) as f32 } else { 0.0 };

@@ -9,6 +9,8 @@
 //! speed   = feed-forward + gain · lacking + what this direction of the spool has been found to lack
 //! ```
 //!
+//! `lacking` is a mean over the feedback's time: at the frequency a machine rings with on its oil, the gain is low.
+//!
 //! The last term is learnt from `lacking` while the actuator moves; it is an error of the valve map, kept for each direction, and not
 //! among the corrections under way: at a steady speed the error itself goes to zero.
 
@@ -23,6 +25,19 @@ use crate::parameters::MotionParameters;
 /// An error is left alone up to the rest zone, and from then on up to so many of it.
 const LEAVES_REST: f32 = 3.0;
 
+/// `x` within this of zero, where it mostly is.
+#[inline(always)]
+fn within(x: f32, most: f32) -> f32 {
+    if x.abs() > most { end(x, most) } else { x }
+}
+
+/// Not inlined: the compiler would compute both ends and choose, which takes longer than to see that neither is wanted.
+#[cold]
+#[inline(never)]
+fn end(x: f32, most: f32) -> f32 {
+    if x > 0.0 { most } else { -most }
+}
+
 /// One actuator.
 #[derive(Clone, Copy, Debug)]
 struct Channel {
@@ -35,10 +50,13 @@ struct Channel {
     /// Not left alone within the rest zone.
     awake: bool,
     creep: Creep,
+    /// What has been lacking, over the feedback's time.
+    lacked: f32,
 }
 
 impl Channel {
-    const NEW: Self = Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST };
+    const NEW: Self =
+        Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST, lacked: 0.0 };
 }
 
 /// The law's state. Swing, boom, arm, bucket in every array.
@@ -58,11 +76,24 @@ pub(super) struct Law {
     quiet_until: u32,
     tick: u32,
     channels: [Channel; 4],
+    /// Share of what is lacking now.
+    feedback_share: f32,
+    /// One over the lags that all but stop the clock.
+    per_lag: [f32; 4],
+    /// The largest lag in the direction of motion, as a share of its own.
+    lag: f32,
 }
+
+/// Up to this share of the lag that all but stops the clock it keeps its pace.
+const PATIENCE: f32 = 0.25;
+
+/// The slowest pace of the clock for the sake of a lag.
+const SLOWEST: f32 = 0.05;
 
 impl Law {
     pub(super) fn new(motion: &MotionParameters, p: &LawParameters) -> Self {
         let cylinder = motion.following_error_m;
+        let per_lag = 1.0 / p.lag_m;
         Self {
             feed_forward: p.feed_forward,
             gain_per_s: motion.gain_per_s,
@@ -77,7 +108,15 @@ impl Law {
             quiet_until: 0,
             tick: 0,
             channels: [Channel::NEW; 4],
+            feedback_share: if p.feedback_lag_s > TICK_S { TICK_S / p.feedback_lag_s } else { 1.0 },
+            per_lag: [1.0 / p.swing_following_error_rad * (cylinder / p.lag_m), per_lag, per_lag, per_lag],
+            lag: 0.0,
         }
+    }
+
+    /// The pace at which whatever lags can catch up: a valve that gets too little oil is seen in no other way.
+    pub(super) fn pace(&self) -> f32 {
+        limited(1.0 + PATIENCE - self.lag, SLOWEST, 1.0)
     }
 
     /// How far ahead modes have to look, ticks.
@@ -88,6 +127,7 @@ impl Law {
     /// Starts over; what the valves were found to lack is kept. Nothing is corrected for `quiet` ticks after the preview.
     pub(super) fn begin(&mut self, quiet: u32) {
         self.tick = 0;
+        self.lag = 0.0;
         self.quiet_until = self.preview_ticks.saturating_add(quiet);
         for channel in &mut self.channels {
             *channel = Channel { bias: channel.bias, ..Channel::NEW };
@@ -112,54 +152,70 @@ impl Law {
     ) -> (f32, [f32; 3]) {
         self.tick = self.tick.saturating_add(1);
         let [swing, boom, arm, bucket] = &mut self.channels;
-        let ahead = [a, b, c, boom.given, arm.given, bucket.given];
-        let [a, b, c, boom_then, arm_then, bucket_then] = delays.cylinders(self.tick, ahead);
+        let ahead = [a, b, c, boom.given, arm.given, bucket.given, turned.unwrap_or(0.0), swing.given];
+        let [a, b, c, boom_then, arm_then, bucket_then, turned_then, swing_then] = delays.modes(self.tick, ahead);
         (boom.given_then, arm.given_then, bucket.given_then) = (boom_then, arm_then, bucket_then);
-        let turned = turned.map_or(0.0, |turned| {
-            let [turned, given_then] = delays.swing(self.tick, [turned, swing.given]);
-            swing.given_then = given_then;
-            turned
+        let turned = turned.map_or(0.0, |_| {
+            swing.given_then = swing_then;
+            turned_then
         });
         (turned, [a, b, c])
     }
 
     /// Speeds, from the feed-forward and reference − measured; the swing stands still unless it `swings`.
     pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4], swings: bool) -> Result<[f32; 4], Fault> {
+        self.lag = 0.0;
+        // One after the other, not in a loop: chained iterators take twice the instructions.
+        let ([of_swing, of_boom, of_arm, of_bucket], [swing, boom, arm, bucket]) = (feed_forward, errors);
+        Ok([
+            if swings { self.checked(0, of_swing, swing)? } else { 0.0 },
+            self.checked(1, of_boom, boom)?,
+            self.checked(2, of_arm, arm)?,
+            self.checked(3, of_bucket, bucket)?,
+        ])
+    }
+
+    /// One actuator's speed, as long as it does not stray.
+    #[inline(always)]
+    fn checked(&mut self, index: usize, feed: f32, error: f32) -> Result<f32, Fault> {
         let quiet = self.tick <= self.quiet_until;
-        let mut speeds = [0.0; 4];
-        let each = speeds.iter_mut().zip(feed_forward).zip(errors).zip(self.following_errors).enumerate();
-        for (index, (((speed, feed), error), limit)) in each.skip(if swings { 0 } else { 1 }) {
-            let strays = error < -limit || error > limit;
-            if strays && !quiet {
-                return Err(Fault::FollowingError);
-            }
-            *speed = self.speed(index, self.feed_forward * feed, if quiet { 0.0 } else { error });
+        let limit = self.following_errors.get(index).copied().unwrap_or(0.0);
+        if error.abs() > limit && !quiet {
+            return Err(Fault::FollowingError);
         }
-        Ok(speeds)
+        Ok(self.speed(index, self.feed_forward * feed, if quiet { 0.0 } else { error }))
     }
 
     #[inline(always)]
     fn speed(&mut self, index: usize, feed: f32, error: f32) -> f32 {
-        let Some(channel) = self.channels.get_mut(index) else { return 0.0 };
+        let (Some(channel), Some(per_lag)) = (self.channels.get_mut(index), self.per_lag.get(index)) else {
+            return 0.0;
+        };
         let lacking = error - (channel.given - channel.given_then);
         if feed == 0.0 {
             let zone = if channel.awake { self.rest_zone } else { LEAVES_REST * self.rest_zone };
             channel.awake = lacking < -zone || lacking > zone;
             if !channel.awake {
-                channel.creep = Creep::REST;
+                (channel.creep, channel.lacked) = (Creep::REST, 0.0);
                 return 0.0;
             }
         } else {
             channel.awake = true;
         }
-        let correction = limited(self.gain_per_s * lacking, -self.correction_limit, self.correction_limit);
+        channel.lacked += (lacking - channel.lacked) * self.feedback_share;
+        let lacking = channel.lacked;
+        let correction = within(self.gain_per_s * lacking, self.correction_limit);
         let asked = feed + correction;
+        let lag = if feed < 0.0 { -lacking } else { lacking } * per_lag;
+        if feed != 0.0 && lag > self.lag {
+            self.lag = lag;
+        }
         let [extend, retract] = &mut channel.bias;
         let (bias, asked_forward, feed_forward, lacking_forward) =
             if asked >= 0.0 { (extend, asked, feed, lacking) } else { (retract, -asked, -feed, -lacking) };
         // An error of the map shows only where the actuator really moves.
         if feed_forward > self.smallest_speed {
-            *bias = limited(*bias + self.integral_per_tick * lacking_forward, -self.bias_limit, self.bias_limit);
+            *bias = within(*bias + self.integral_per_tick * lacking_forward, self.bias_limit);
         }
         // What is lacking less may stop the actuator but not turn it round.
         let forward = asked_forward + *bias;

@@ -1,10 +1,10 @@
 //! Levers: each asks for a fraction of its actuator's full speed.
 
-use crate::io::{Speeds, limited};
+use crate::io::Speeds;
 use crate::parameters::ValveDirection;
 
 /// Full deflection of a lever.
-const FULL: f32 = 32767.0;
+const FULL: i16 = 32767;
 
 /// What full deflection means.
 #[derive(Clone, Copy, Debug)]
@@ -22,13 +22,22 @@ impl Levers {
     /// Speeds the levers ask for; one that asks for less than the smallest speed asks for none.
     pub(super) fn speeds(&self, levers: [i16; 4]) -> Speeds {
         let mut speeds = [0.0; 4];
-        for ((speed, lever), [extend, retract]) in speeds.iter_mut().zip(levers).zip(self.full_speeds) {
-            let fraction = limited(f32::from(lever) / FULL, -1.0, 1.0);
-            let asked = fraction * if fraction > 0.0 { extend } else { retract };
-            if asked >= self.smallest_speed || asked <= -self.smallest_speed {
-                *speed = asked;
-            }
+        for ((speed, lever), full) in speeds.iter_mut().zip(levers).zip(self.full_speeds) {
+            *speed = self.speed(lever, full);
         }
         Speeds::from_array(speeds)
+    }
+
+    /// The arm's of them alone.
+    pub(super) fn arm_mps(&self, [_, _, arm, _]: [i16; 4]) -> f32 {
+        let [_, _, full, _] = self.full_speeds;
+        self.speed(arm, full)
+    }
+
+    #[inline(always)]
+    fn speed(&self, lever: i16, [extend, retract]: [f32; 2]) -> f32 {
+        let fraction = f32::from(core::cmp::max(lever, -FULL)) / f32::from(FULL);
+        let asked = fraction * if fraction > 0.0 { extend } else { retract };
+        if asked >= self.smallest_speed || asked <= -self.smallest_speed { asked } else { 0.0 }
     }
 }

@@ -69,7 +69,7 @@ impl Limits {
         let lengths = [lengths.boom, lengths.arm, lengths.bucket];
         for ((length, speed), ends) in lengths.into_iter().zip(cylinders).zip(self.ends_m) {
             if let Some(limit) = self.cushioned(length, *speed, ends) {
-                keep(&mut factor, if *speed < 0.0 { -*speed } else { *speed }, limit);
+                keep(&mut factor, speed.abs(), limit);
             }
         }
         factor

@@ -11,6 +11,7 @@ mod law;
 mod levers;
 mod limits;
 mod modes;
+mod overrun;
 mod path;
 mod planned;
 mod profile;
@@ -21,7 +22,6 @@ mod sum;
 mod tip_velocity;
 mod tracker;
 
-use core::borrow::BorrowMut;
 use core::cell::Cell;
 
 use kinematics_core::{Cylinders, Machine, Pose};
@@ -29,9 +29,11 @@ use kinematics_core::{Cylinders, Machine, Pose};
 use crate::can::command::Slope;
 use crate::command::Intent;
 use crate::constants::Constant;
+use crate::diagnosis::Pressures;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters, ReachParameters};
 
 use delays::{Delays, preview_ticks};
@@ -66,20 +68,31 @@ impl Wanted {
 pub struct Followers {
     delays: Delays,
     planned: MoveFollower,
-    /// The cell has no spare bit patterns, so `None` is zeros: an image needs no flash for it.
+    /// The cells have no spare bit patterns, so `None` is zeros: an image needs no flash for them.
+    dig: Option<Cell<DigFollower>>,
     reach: Option<Cell<ReachFollower>>,
-    /// The coordinated modes; the cell for the same reason.
+    /// The coordinated modes.
     modes: Option<Cell<Modes>>,
 }
 
 impl Followers {
     /// Of nothing yet.
     pub const fn new() -> Self {
-        Self { delays: Delays::new(), planned: MoveFollower::new(), reach: None, modes: None }
+        Self { delays: Delays::new(), planned: MoveFollower::new(), dig: None, reach: None, modes: None }
     }
 
-    /// Plans what the parameters ask for.
-    fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
+    /// Precomputes what the parameters ask for; the dig has been tried before.
+    ///
+    /// # Errors
+    /// Why a move has no plan; what planning past obstacles lacks.
+    pub(crate) fn plan(
+        &mut self,
+        p: &Parameters,
+        machine: &Machine<f32>,
+        dig: Option<Dig<f32>>,
+    ) -> Result<(), ParameterError> {
+        let followed = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut self.delays));
+        self.dig = followed.map(Cell::new);
         if let Some(planned) = &p.planned_move {
             self.planned.plan(&p.motion, machine, planned, &mut self.delays).map_err(ParameterError::Move)?;
         }
@@ -109,6 +122,20 @@ impl Followers {
         self.reach = Some(Cell::new(ReachFollower::new(reach, &p.geometry, machine, &p.coils.valves(), &p.motion)?));
         Ok(())
     }
+
+    /// Whatever is asked for next starts over.
+    pub(crate) fn start_over(&mut self) {
+        if let Some(dig) = &mut self.dig {
+            dig.get_mut().reset();
+        }
+        self.planned.reset();
+        if let Some(reach) = &mut self.reach {
+            reach.get_mut().reset();
+        }
+        if let Some(modes) = &mut self.modes {
+            modes.get_mut().reset();
+        }
+    }
 }
 
 impl Default for Followers {
@@ -117,37 +144,23 @@ impl Default for Followers {
     }
 }
 
-/// The motion stage. `F` holds [`Followers`], by value or by reference.
+/// The motion stage; what it follows stands in [`Followers`].
 #[derive(Clone, Debug)]
-pub struct Motion<F = Followers> {
-    dig: Option<DigFollower>,
+pub struct Motion {
     levers: Levers,
     slew: Option<Slew>,
-    followers: F,
     /// The request of the last tick; another one starts over.
     request: Request,
 }
 
-impl<F: BorrowMut<Followers>> Motion<F> {
+impl Motion {
     /// Of validated parameters.
-    ///
-    /// # Errors
-    /// Why a move has no plan; what planning past obstacles lacks.
-    pub(crate) fn new(
-        p: &Parameters,
-        machine: &Machine<f32>,
-        dig: Option<Dig<f32>>,
-        mut followers: F,
-    ) -> Result<Self, ParameterError> {
-        followers.borrow_mut().plan(p, machine)?;
-        let delays = &mut followers.borrow_mut().delays;
-        Ok(Self {
-            dig: dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, delays)),
+    pub(crate) fn new(p: &Parameters) -> Self {
+        Self {
             levers: Levers::new(&p.coils.valves(), p.motion.smallest_speed_mps),
             slew: p.motion.law.as_ref().map(Slew::new),
-            followers,
             request: Request::Neutral,
-        })
+        }
     }
 
     /// Where the levers' constants lie.
@@ -155,38 +168,11 @@ impl<F: BorrowMut<Followers>> Motion<F> {
         Constant::of(&self.levers)
     }
 
-    /// Precomputes everything anew, for another geometry; the dig has been tried before.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub(crate) fn plan(&mut self, p: &Parameters, machine: &Machine<f32>) -> Result<(), ParameterError> {
-        let followers = self.followers.borrow_mut();
-        followers.plan(p, machine)?;
-        let dig = p.dig.as_ref().map(Dig::new);
-        self.dig = dig.and_then(|dig| DigFollower::new(&p.motion, machine, dig, &mut followers.delays));
-        Ok(())
-    }
-
-    /// Back to standing still: whatever is asked for next starts over.
+    /// Back to standing still; the followers start over with it.
     pub(crate) fn reset(&mut self) {
-        self.start_over();
+        self.request = Request::Neutral;
         if let Some(slew) = &mut self.slew {
             slew.reset();
-        }
-    }
-
-    fn start_over(&mut self) {
-        self.request = Request::Neutral;
-        if let Some(dig) = &mut self.dig {
-            dig.reset();
-        }
-        let followers = self.followers.borrow_mut();
-        followers.planned.reset();
-        if let Some(reach) = &mut followers.reach {
-            reach.get_mut().reset();
-        }
-        if let Some(modes) = &mut followers.modes {
-            modes.get_mut().reset();
         }
     }
 
@@ -194,51 +180,55 @@ impl<F: BorrowMut<Followers>> Motion<F> {
     ///
     /// # Errors
     /// [`Fault::NotConfigured`], [`Fault::NotAtStart`], [`Fault::FollowingError`], [`Fault::Trajectory`].
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
-        machine: &Machine<f32>,
+        (machine, followers): (&Machine<f32>, &mut Followers),
         running: bool,
-        (intent, slope): (&Intent, Option<Slope>),
+        (intent, slope, pressures_pa): (&Intent, Option<Slope>, &Pressures),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         if !running {
             self.reset();
+            followers.start_over();
             return Ok(Wanted::hold(lengths));
         }
         if intent.request != self.request {
-            self.start_over();
+            followers.start_over();
         }
         self.request = intent.request;
         let wanted = match intent.request {
             Request::Neutral => Wanted::hold(lengths),
             Request::Dig => {
-                let delays = &mut self.followers.borrow_mut().delays;
-                self.dig.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, lengths, delays)?
+                let Followers { dig, delays, .. } = followers;
+                dig.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, lengths, delays)?
             }
             Request::Move => {
-                let Followers { planned, delays, .. } = self.followers.borrow_mut();
+                let Followers { planned, delays, .. } = followers;
                 planned.follow(lengths, delays)?
             }
             Request::Reach => {
-                let reach = &mut self.followers.borrow_mut().reach;
+                let reach = near(&mut followers.reach);
                 reach.as_mut().ok_or(Fault::NotConfigured)?.get_mut().follow(machine, pose, lengths)?
             }
             Request::Levers => {
                 let asked = self.levers.speeds(intent.levers);
-                let modes = self.followers.borrow_mut().modes.as_mut();
+                let modes = followers.modes.as_mut();
                 let speeds = modes.map_or(asked, |modes| modes.get_mut().cushion(lengths, asked));
                 Wanted { speeds, ..Wanted::hold(lengths) }
             }
             Request::TipVelocity | Request::Grade | Request::Path => {
-                let speeds = self.slew.as_ref().map_or([0.0; 4], Slew::speeds);
-                let arm_mps = self.levers.speeds(intent.levers).arm;
-                let Followers { delays, modes, .. } = self.followers.borrow_mut();
+                let speeds = near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
+                // Only grade follows a lever.
+                let grades = intent.request == Request::Grade;
+                let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };
+                let Followers { delays, modes, .. } = followers;
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
+                modes.weigh(pressures_pa);
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };
-        let speeds = self.slew.as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
+        let speeds = near(&mut self.slew).as_mut().map_or(wanted.speeds, |slew| slew.pass(wanted.speeds));
         Ok(Wanted { speeds, ..wanted })
     }
 }

@@ -12,9 +12,11 @@ use super::path::PathFollower;
 use super::tip_velocity::TipFollower;
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::diagnosis::Pressures;
 use crate::fault::Fault;
 use crate::io::{Request, Speeds};
 use crate::law::LawParameters;
+use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
 
 /// Path, grade and tip velocity.
@@ -39,6 +41,7 @@ impl Modes {
     }
 
     pub(super) fn reset(&mut self) {
+        self.shared.overrun.reset();
         self.tip.reset();
         if let Some(path) = &mut self.path {
             path.reset();
@@ -53,6 +56,12 @@ impl Modes {
         self.shared.limits.cushion(lengths, speeds)
     }
 
+    /// One tick's pressures.
+    #[inline(always)]
+    pub(super) fn weigh(&mut self, pressures_pa: &Pressures) {
+        self.shared.overrun.weigh(pressures_pa);
+    }
+
     /// One tick of the mode asked for; `speeds` are those of the last tick, `arm_mps` what the arm's lever asks for.
     pub(super) fn follow(
         &mut self,
@@ -62,15 +71,16 @@ impl Modes {
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        self.shared.speeds = speeds;
-        let shared = (&mut self.shared, delays);
+        let Self { shared, path, grade, tip } = self;
+        shared.speeds = speeds;
+        let shared = (near(shared), near(delays));
         match intent.request {
-            Request::TipVelocity => self.tip.follow(machine, shared, &intent.tip, pose, lengths),
+            Request::TipVelocity => near(tip).follow(machine, shared, &intent.tip, pose, lengths),
             Request::Grade => {
-                let grade = self.grade.as_mut().ok_or(Fault::NotConfigured)?;
+                let grade = near(grade).as_mut().ok_or(Fault::NotConfigured)?;
                 grade.follow(machine, shared, (arm_mps, slope), pose, lengths)
             }
-            _ => self.path.as_mut().ok_or(Fault::NotConfigured)?.follow(machine, shared, pose, lengths),
+            _ => near(path).as_mut().ok_or(Fault::NotConfigured)?.follow(machine, shared, pose, lengths),
         }
     }
 }

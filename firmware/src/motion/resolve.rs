@@ -13,8 +13,7 @@ pub(super) fn resolve(
     twist: &Twist<f32>,
 ) -> Result<(Cylinders<f32>, [f32; 3]), Fault> {
     let joints = machine.tip_to_joints(tip).map_err(|_| Fault::Trajectory)?;
-    let lengths = machine.joints_to_cylinders(&joints).map_err(|_| Fault::Trajectory)?;
-    let arms = machine.moment_arms(&lengths).map_err(|_| Fault::Trajectory)?;
+    let (lengths, arms) = machine.joints_to_cylinders_with_arms(&joints).map_err(|_| Fault::Trajectory)?;
     let joint_rates = machine.chain().jacobian(&joints).joint_rates(twist).map_err(|_| Fault::Trajectory)?;
     let rates = arms.cylinder_rates(&joint_rates);
     Ok((lengths, [rates.boom, rates.arm, rates.bucket]))

@@ -49,7 +49,7 @@ pub enum Reason {
     Enabled,
     /// A fault is there; the controller's state says which.
     Fault,
-    /// The record has no such bucket, or no record was given.
+    /// The record has no such bucket, or there is no store.
     NoSuchBucket,
     /// With this bucket the dig, the move, the fence or the target is not possible; the one before stays mounted.
     BucketUnusable,
@@ -59,7 +59,7 @@ pub enum Reason {
     NoRoomToSearch,
     /// Nothing was found that could be kept.
     NothingFound,
-    /// The store did not take the record.
+    /// The store did not take the record, or there is none.
     NotStored,
     /// The command was withdrawn.
     Withdrawn,
@@ -93,11 +93,13 @@ pub enum Reason {
     TooFewTouches,
     /// The touches' bucket angles are too alike.
     TouchesTooAlike,
+    /// Values were kept that the controller works with from its next start: start it anew first.
+    RestartFirst,
 }
 
 impl Reason {
     /// Every reason, in the order of the codes.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::None,
         Self::Enabled,
         Self::Fault,
@@ -123,6 +125,7 @@ impl Reason {
         Self::SensorReversed,
         Self::TooFewTouches,
         Self::TouchesTooAlike,
+        Self::RestartFirst,
     ];
 
     /// Its name.
@@ -153,6 +156,7 @@ impl Reason {
             Self::SensorReversed => "sensor_reversed",
             Self::TooFewTouches => "too_few_touches",
             Self::TouchesTooAlike => "touches_too_alike",
+            Self::RestartFirst => "restart_first",
         }
     }
 }
@@ -172,7 +176,7 @@ pub struct Answer {
     pub progress: f32,
     /// What the last calibration found: a proposal, until it is kept.
     pub found: Option<Found>,
-    /// The mounted bucket; `None` without a record of buckets.
+    /// The mounted bucket; `None` without a store.
     pub bucket: Option<u8>,
 }
 

@@ -6,18 +6,18 @@ use core::fmt;
 use embedded_storage::nor_flash::NorFlash;
 
 use super::found::Found;
-use crate::board::{Board, Disabled, NotDisabled};
-use crate::store::{CopyFault, RecordError, Sealed, Store, StoredRecord, WriteError};
+use crate::board::Disabled;
+use crate::store::{CopyFault, LoadError, RecordError, Sealed, Store, StoredRecord, WriteError};
 
 /// Why nothing was kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum KeepError {
+    /// The store has no record to put them into.
+    Load(LoadError),
     /// With the found values the record would not be valid.
     Record(RecordError),
     /// It does not fit a copy.
     Copy(CopyFault),
-    /// The board is not disabled.
-    NotDisabled(NotDisabled),
     /// The store did not take it.
     Store(WriteError),
 }
@@ -25,9 +25,9 @@ pub enum KeepError {
 impl fmt::Display for KeepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Load(error) => error.fmt(f),
             Self::Record(error) => error.fmt(f),
             Self::Copy(error) => error.fmt(f),
-            Self::NotDisabled(error) => error.fmt(f),
             Self::Store(error) => error.fmt(f),
         }
     }
@@ -35,20 +35,31 @@ impl fmt::Display for KeepError {
 
 impl core::error::Error for KeepError {}
 
-/// Puts the found values into the record, signs it off and writes it; gives its sequence number. The controller works with it from its
-/// next start.
+/// Puts the found values into the store's record, signs it off and writes it; gives its sequence number. `bucket` is the one they were found
+/// with. The controller works with it from its next start.
 ///
 /// # Errors
 /// [`KeepError`]; whatever it is, the store still has the record before or the new one.
-pub fn keep<B: Board, S: NorFlash>(
+#[inline(never)]
+pub fn keep<S: NorFlash>(
     found: &Found,
-    (record, bucket): (&StoredRecord, usize),
-    board: &mut B,
+    bucket: usize,
     store: &mut Store<S>,
+    permit: &Disabled,
 ) -> Result<u32, KeepError> {
-    let record = found.in_record(record, bucket).map_err(KeepError::Record)?;
-    let mut sealed = Sealed::new(&record).map_err(KeepError::Copy)?;
+    let record = store.load().map_err(KeepError::Load)?.record;
+    let record = found.in_record(&record, bucket).map_err(KeepError::Record)?;
+    write(&record, store, permit)
+}
+
+/// Signed off and written.
+#[inline(never)]
+pub(super) fn write<S: NorFlash>(
+    record: &StoredRecord,
+    store: &mut Store<S>,
+    permit: &Disabled,
+) -> Result<u32, KeepError> {
+    let mut sealed = Sealed::new(record).map_err(KeepError::Copy)?;
     sealed.approve();
-    let disabled = Disabled::new(board).map_err(KeepError::NotDisabled)?;
-    store.write(disabled, &sealed).map_err(KeepError::Store)
+    store.write(permit, &sealed).map_err(KeepError::Store)
 }

@@ -6,14 +6,15 @@
 //!  │◀──── withdrawn, stale, changed, fault ───┘      done, failed, withdrawn, stale, changed, enable off,
 //!  │                                                          levers moved, fault
 //!  └────────────────────── enable off, a second ago ── Ended ◀─────────────────────────────┘
-//! Idle ── a bucket, disabled ──▶ Mounting ── mounted or refused ──▶ Idle
+//! Idle ── a bucket or keeping, disabled ──▶ Due ── proved disabled ──▶ Away ── the errand is back ──▶ Back ──▶ Idle
 //! ```
-//! While `Ended` lasts the supervisor is told that the enable switch is off; while `Mounting` lasts, that there is no command: neither can
+//! While `Ended` lasts the supervisor is told that the enable switch is off; from `Due` to `Back`, that there is no command: neither can
 //! run. A task is begun once: the same again needs that it was withdrawn between.
 
 use kinematics_core::{Joints, Vec2};
 
 use super::answer::{Answer, Phase, Reason};
+use super::errand::Job;
 use super::found::Found;
 use super::limits::SpoolLimits;
 use super::procedure::{Procedure, Wish};
@@ -34,19 +35,21 @@ pub(crate) enum Run {
     Waiting,
     Driving,
     Ended,
-    Mounting,
-    /// The tick after: the last step may have taken longer than its tick.
-    Mounted,
+    /// An errand waits for the proof that the board is disabled.
+    Due,
+    /// An errand is run beside the ticks: they may come late.
+    Away,
+    /// The tick after.
+    Back,
 }
 
 /// What the stage looks at before a task begins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Situation {
     pub(crate) state: State,
-    pub(crate) wrist: Vec2<f32>,
+    /// `None` while nothing is fitted.
+    pub(crate) wrist: Option<Vec2<f32>>,
     pub(crate) joints: Joints<f32>,
-    /// There is a record of buckets that has the one asked for.
-    pub(crate) has_bucket: bool,
 }
 
 /// The stage.
@@ -62,6 +65,10 @@ pub struct Service {
     answer: Answer,
     /// Ticks since a task ended.
     settled: u16,
+    /// Buckets in the store's record; 0 without a store.
+    buckets: u8,
+    /// The record is another than the one the application was built from.
+    kept: bool,
 }
 
 impl Service {
@@ -76,6 +83,8 @@ impl Service {
             touched: 0.0,
             answer: Answer::NONE,
             settled: 0,
+            buckets: 0,
+            kept: false,
         }
     }
 
@@ -84,8 +93,15 @@ impl Service {
         &self.answer
     }
 
-    pub(crate) fn run(&self) -> Run {
-        self.run
+    /// An errand is under way, or was until this tick.
+    pub(crate) fn is_away(&self) -> bool {
+        matches!(self.run, Run::Away | Run::Back)
+    }
+
+    /// An errand is about to begin, under way or just over.
+    #[inline(always)]
+    pub(crate) fn runs_errand(&self) -> bool {
+        matches!(self.run, Run::Due | Run::Away | Run::Back)
     }
 
     /// There is something to do, or to forget.
@@ -127,8 +143,11 @@ impl Service {
     fn enter(&mut self, request: &ServiceRequest, now: &Situation) -> Result<(), Reason> {
         match request.task {
             Task::None => {}
-            Task::MountBucket if !now.has_bucket => return Err(Reason::NoSuchBucket),
-            Task::MountBucket => (self.run, self.answer.phase) = (Run::Mounting, Phase::UnderWay),
+            Task::MountBucket if request.number >= self.buckets => return Err(Reason::NoSuchBucket),
+            Task::MountBucket if self.kept => return Err(Reason::RestartFirst),
+            Task::Keep if self.answer.found.is_none() => return Err(Reason::NothingFound),
+            Task::Keep if self.buckets == 0 => return Err(Reason::NotStored),
+            Task::MountBucket | Task::Keep => (self.run, self.answer.phase) = (Run::Due, Phase::UnderWay),
             Task::Touch => self.touch(request.number, now),
             Task::MeasureUp => {
                 let bucket = self.touches.bucket().map_err(|why| match why {
@@ -137,8 +156,6 @@ impl Service {
                 })?;
                 (self.answer.found, self.answer.progress) = (Some(Found::Bucket(bucket)), 1.0);
             }
-            Task::Keep if self.answer.found.is_none() => return Err(Reason::NothingFound),
-            Task::Keep => self.answer.phase = Phase::UnderWay,
             Task::ValveSearch | Task::EndStops | Task::Jog => {
                 let limits = self.limits.get(usize::from(request.spool)).ok_or(Reason::NoEndStops)?;
                 self.procedure = Procedure::of(request, limits)?;
@@ -151,8 +168,8 @@ impl Service {
     fn touch(&mut self, number: u8, now: &Situation) {
         if number == 0 {
             (self.touches, self.touched) = (MeasureUp::new(), 0.0);
-        } else {
-            self.touches.touch(now.wrist, &now.joints);
+        } else if let Some(wrist) = now.wrist {
+            self.touches.touch(wrist, &now.joints);
             self.touched = if self.touched < 100.0 { self.touched + 1.0 } else { 100.0 };
         }
         self.answer.progress = 0.01 * self.touched;
@@ -162,10 +179,10 @@ impl Service {
     pub(crate) fn before(&mut self, inputs: &mut Inputs) -> Option<(usize, f32)> {
         match self.run {
             Run::Idle => None,
-            Run::Mounting | Run::Mounted => {
-                // Nothing can move, and a step may take its time.
+            Run::Due | Run::Away | Run::Back => {
+                // Nothing can move, and a flash that erases stops the ticks.
                 (inputs.command, inputs.overrun) = (None, false);
-                if self.run == Run::Mounted {
+                if self.run == Run::Back {
                     self.run = Run::Idle;
                 }
                 None
@@ -257,38 +274,37 @@ impl Service {
         }
     }
 
-    /// The bucket asked for.
-    pub(crate) fn wanted_bucket(&self) -> u8 {
-        self.heard.map_or(0, |heard| heard.number)
+    /// There is a store; its record has so many buckets, and this one of them is mounted.
+    pub(crate) fn set_buckets(&mut self, count: u8, mounted: u8) {
+        (self.buckets, self.answer.bucket) = (count, Some(mounted));
     }
 
-    /// A bucket is mounted: the one asked for, or again the one before.
-    pub(crate) fn mounted(&mut self, bucket: u8, as_asked: bool) {
-        self.run = Run::Mounted;
-        self.answer.bucket = Some(bucket);
+    #[inline(always)]
+    pub(crate) fn errand_is_due(&self) -> bool {
+        self.run == Run::Due
+    }
+
+    /// What is due, once.
+    pub(crate) fn send(&mut self) -> Option<Job> {
+        let bucket = self.answer.bucket.filter(|_| self.run == Run::Due)?;
+        let job = match self.answer.task {
+            Task::MountBucket => Job::Mount { bucket: self.heard?.number, before: bucket },
+            _ => Job::Keep { found: self.answer.found?, bucket },
+        };
+        self.run = Run::Away;
+        Some(job)
+    }
+
+    /// An errand is back, or was not possible.
+    pub(crate) fn returned(&mut self, mounted: Option<u8>, outcome: Result<(), Reason>) {
+        self.run = Run::Back;
+        self.answer.bucket = mounted.or(self.answer.bucket);
         self.answer.progress = 1.0;
-        (self.answer.phase, self.answer.reason) =
-            if as_asked { (Phase::Done, Reason::None) } else { (Phase::Refused, Reason::BucketUnusable) };
-    }
-
-    /// The record of buckets is there, and this one of it is mounted.
-    pub(crate) fn has_buckets(&mut self, mounted: u8) {
-        self.answer.bucket = Some(mounted);
-    }
-
-    /// What is to be kept, until it was kept.
-    pub fn to_keep(&self) -> Option<&Found> {
-        let due = self.answer.task == Task::Keep && self.answer.phase == Phase::UnderWay;
-        self.answer.found.as_ref().filter(|_| due)
-    }
-
-    /// It is in the store, or it is not.
-    pub(crate) fn kept(&mut self, stored: bool) {
-        if self.to_keep().is_some() {
-            self.answer.progress = 1.0;
-            (self.answer.phase, self.answer.reason) =
-                if stored { (Phase::Done, Reason::None) } else { (Phase::Refused, Reason::NotStored) };
-        }
+        (self.answer.phase, self.answer.reason) = match outcome {
+            Ok(()) => (Phase::Done, Reason::None),
+            Err(reason) => (Phase::Refused, reason),
+        };
+        self.kept |= self.answer.task == Task::Keep && outcome.is_ok();
     }
 }
 

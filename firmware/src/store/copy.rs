@@ -22,7 +22,7 @@ pub const DATA_BYTES: usize = 2048;
 /// A whole copy, bytes.
 pub const COPY_BYTES: usize = HEADER_BYTES + DATA_BYTES;
 /// Version of the record's format; another one is not read.
-pub const FORMAT_VERSION: u32 = 2;
+pub const FORMAT_VERSION: u32 = 3;
 
 const MAGIC: [u8; 4] = *b"XCPR";
 const ERASED: u32 = u32::MAX;
@@ -158,6 +158,7 @@ impl Sealed {
         self.as_bytes().get(HEADER_BYTES..).unwrap_or(&[])
     }
 
+    #[inline(never)]
     fn write_header(&mut self, sequence: u32, approved: bool) {
         let length = self.length as u32;
         let data_crc = CRC.checksum(self.data());
@@ -172,6 +173,7 @@ impl Sealed {
     }
 }
 
+#[inline(never)]
 fn approval(length: u32, data: &[u8]) -> u32 {
     let mut digest = APPROVAL.digest();
     digest.update(&FORMAT_VERSION.to_le_bytes());

@@ -65,6 +65,8 @@ pub struct StoredRecord {
     /// The buckets.
     #[serde(deserialize_with = "apart")]
     pub buckets: [Option<Bucket>; MAX_BUCKETS],
+    /// The one that is mounted.
+    pub mounted: u8,
 }
 
 /// What is wrong with a record.
@@ -127,7 +129,12 @@ impl StoredRecord {
         Some(geometry)
     }
 
-    /// Checks the names, that no bucket stands behind an empty place, and the parameters with every bucket.
+    /// How many buckets there are.
+    pub fn bucket_count(&self) -> u8 {
+        self.buckets.iter().flatten().fold(0, |count, _| count + 1)
+    }
+
+    /// Checks the names, that no bucket stands behind an empty place, the mounted one, and the parameters with every bucket.
     ///
     /// # Errors
     /// The first at fault, by name and range.
@@ -140,6 +147,7 @@ impl StoredRecord {
                 return Err(RecordError::BucketName { bucket: index });
             }
         }
-        Ok(())
+        let mounted = usize::from(self.mounted);
+        if mounted < used { Ok(()) } else { Err(RecordError::NoBucket { bucket: mounted }) }
     }
 }

@@ -111,10 +111,11 @@ impl Supervisor {
         let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
         self.count(inputs, at_rest && !watched.moving);
 
-        let grave = self.grave(watched);
+        let tested = self.self_test.passed();
+        let grave = self.grave(watched, tested);
         let wrong = grave.or_else(|| self.wrong(inputs, watched));
         let facts = Facts::NONE
-            .and_if(self.self_test.passed(), Facts::SELF_TESTED)
+            .and_if(tested, Facts::SELF_TESTED)
             .and_if(at_rest, Facts::NEUTRAL)
             .and_if(inputs.enable, Facts::ENABLE)
             .and_if(inputs.enable && !self.enabled_before, Facts::ENABLE_EDGE)
@@ -146,16 +147,24 @@ impl Supervisor {
     }
 
     /// What only a restart clears, most urgent first.
-    fn grave(&self, watched: &Watched) -> Option<Fault> {
+    fn grave(&self, watched: &Watched, tested: bool) -> Option<Fault> {
         if self.overruns >= OVERRUN_TICKS {
             Some(Fault::Overrun)
         } else if self.cut_off_astray > CUT_OFF_TICKS && !self.told_closed {
             Some(Fault::CutOffWelded)
+        } else if watched.coil.is_none() && watched.stage_fault.is_none() && tested {
+            None
         } else {
-            let coil = watched.coil.map(Fault::Coil);
-            let grave = [coil, watched.stage_fault, self.self_test.fault()];
-            grave.into_iter().flatten().find(|fault| fault.needs_restart())
+            self.gravest(watched)
         }
+    }
+
+    /// Not inlined: it is for faults, and for the time before the self-test has passed.
+    #[inline(never)]
+    fn gravest(&self, watched: &Watched) -> Option<Fault> {
+        let coil = watched.coil.map(Fault::Coil);
+        let grave = [coil, watched.stage_fault, self.self_test.fault()];
+        grave.into_iter().flatten().find(|fault| fault.needs_restart())
     }
 
     /// What else is wrong this tick, most urgent first.

@@ -4,7 +4,7 @@ use core::borrow::BorrowMut;
 
 use firmware::constants::{Constant, Constants};
 use firmware::supervisor::Check;
-use firmware::{Ecu, Followers, SelfTest};
+use firmware::{Ecu, Fitted, SelfTest};
 
 /// What the supervisor is told of constants that are not what they were: nothing is enabled any more before a restart.
 pub(crate) const CORRUPT: SelfTest = SelfTest { parameters: Check::Failed, ..SelfTest::PASSED };
@@ -41,7 +41,7 @@ impl ConstantWatch {
 
     /// After each tick; false when a round has not the sum of the first. A change of the bucket starts it over.
     #[inline(never)]
-    pub(crate) fn look<F: BorrowMut<Followers>>(&mut self, ecu: &Ecu<F>) -> bool {
+    pub(crate) fn look<F: BorrowMut<Fitted>>(&mut self, ecu: &mut Ecu<F>) -> bool {
         if ecu.is_rebuilt() || !self.begun {
             return self.begin(ecu);
         }
@@ -70,7 +70,7 @@ impl ConstantWatch {
 
     /// Finds the places, once there is nothing more to come.
     #[inline(never)]
-    fn begin<F: BorrowMut<Followers>>(&mut self, ecu: &Ecu<F>) -> bool {
+    fn begin<F: BorrowMut<Fitted>>(&mut self, ecu: &mut Ecu<F>) -> bool {
         *self = Self::new();
         if let Some(places) = ecu.constants() {
             (self.places, self.begun) = (places, true);

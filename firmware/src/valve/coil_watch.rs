@@ -161,8 +161,8 @@ impl CoilWatch {
         None
     }
 
-    /// [`Self::judge`] for a coil that was given nothing. Not inlined: it is seldom off and not yet quiet.
-    #[inline(never)]
+    /// [`Self::judge`] for a coil that was given nothing.
+    #[inline(always)]
     pub(super) fn judge_idle(&mut self, limits: &WatchLimits, measured_a: f32) -> Option<CoilFault> {
         if self.quiet && measured_a <= limits.floor_a {
             return None;

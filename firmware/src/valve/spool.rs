@@ -229,7 +229,8 @@ impl Spool {
         let watch = other;
         let other = watch.judge_idle(&shared.limits, shared.measured_a(other_code));
         let quiet = watch.quiet();
-        let both = codes.into_iter().all(|code| code > shared.cross_code);
+        let [extend_code, retract_code] = codes;
+        let both = extend_code > shared.cross_code && retract_code > shared.cross_code;
         let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
         self.other_calm = quiet && self.cross.none();
         if fault.is_none() && other.is_none() && cross.is_none() {

@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::print_with_json;
-use crate::elf::{Deepest, Graph};
+use crate::elf::{Deepest, ERRAND, Graph};
 use crate::place::Image;
 
 /// Arguments of `hil image`.
@@ -38,6 +38,8 @@ struct Report {
     handler_bytes: u64,
     constant_bytes: u64,
     tick_stack_bytes: u32,
+    /// Of what the idle loop runs beside the ticks, where the image runs any of it; part of start-up and idle loop.
+    errand_stack_bytes: Option<u32>,
     start_stack_bytes: u32,
 }
 
@@ -71,6 +73,7 @@ fn report(args: &ImageArgs) -> Result<(), Box<dyn Error>> {
     largest.sort_unstable_by(|a, b| b.cmp(a));
     let [tick_bytes, start_bytes, handler_bytes] = places.each_ref().map(|owners| owners.values().sum());
     let (tick_stack, start_stack) = (graph.deepest(tick)?, graph.deepest(start)?);
+    let errand_stack = graph.named(ERRAND).ok().map(|errand| graph.deepest(errand)).transpose()?;
     let report = Report {
         flash_bytes: image.flash_bytes,
         ram_bytes: image.ram_bytes,
@@ -79,6 +82,7 @@ fn report(args: &ImageArgs) -> Result<(), Box<dyn Error>> {
         handler_bytes,
         constant_bytes: image.flash_bytes.saturating_sub(tick_bytes + start_bytes + handler_bytes),
         tick_stack_bytes: tick_stack.bytes,
+        errand_stack_bytes: errand_stack.as_ref().map(|stack| stack.bytes),
         start_stack_bytes: start_stack.bytes,
     };
     let mut table =
@@ -92,7 +96,9 @@ fn report(args: &ImageArgs) -> Result<(), Box<dyn Error>> {
         }
     }
     writeln!(table, "{:<12} {:>8}", "constants", report.constant_bytes)?;
-    for (name, Deepest { bytes, way }) in [("tick", tick_stack), ("start", start_stack)] {
+    let stacks = [("tick", Some(tick_stack)), ("errands in the idle loop", errand_stack), ("start", Some(start_stack))];
+    for (name, stack) in stacks {
+        let Some(Deepest { bytes, way }) = stack else { continue };
         writeln!(table, "\nstack of the {name}: {bytes} bytes at most")?;
         for (function, frame) in way {
             writeln!(table, "{frame:>8} {function}")?;

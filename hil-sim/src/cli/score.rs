@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::campaign::{conclude, counted, shard};
 use crate::machine_file::MachineFile;
-use crate::score::{LAW, Plants, Report, Setting, runs, score};
+use crate::score::{LAW, OnPlant, Plants, Report, Row, Setting, runs, score};
 use crate::shard::Shard;
 
 /// Arguments of `hil score`.
@@ -94,5 +94,26 @@ fn table(report: &Report) -> String {
             row.plants
         );
     }
+    for row in &report.tasks {
+        for plant in &row.by_plant {
+            notes(&mut out, row, plant);
+        }
+    }
     out
+}
+
+/// A line for each run of a plant that did not come to the end of its path.
+fn notes(out: &mut String, row: &Row, on: &OnPlant) {
+    let mut note = |what: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  {} at {} m/s on plant {}: {what}", row.name, row.speed_mps, on.plant);
+    };
+    match on.fault.zip(on.fault_at_s) {
+        Some((fault, at_s)) => note(format!("fault {fault} at {at_s:.2} s")),
+        None if !on.completed() => note(format!("ended {:.0} mm from the path's end", on.to_end_m * 1e3)),
+        None => {}
+    }
+    if let Some((fault, at_s)) = on.half_flow_fault.zip(on.half_flow_fault_at_s) {
+        note(format!("with half the flow: fault {fault} at {at_s:.2} s"));
+    }
 }

@@ -39,8 +39,9 @@ pub fn main(args: &SoakArgs) -> ExitCode {
 
 fn run(args: &SoakArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
-    let minutes = runs(args.hours).div_ceil(args.shard.of);
-    counted(&machine.name, minutes, (60.0, "hours"), |done| soak(&machine, args.hours, args.seed, args.shard, done))
+    let minutes = args.shard.cases(runs(args.hours));
+    let count = minutes.len() as u64;
+    counted(&machine.name, count, (60.0, "hours"), |done| soak(&machine, args.seed, minutes, done))
 }
 
 fn table(report: &Report) -> String {

@@ -7,6 +7,9 @@ pub mod thumb;
 
 pub use graph::{Deepest, Function, Graph, instructions};
 
+/// The function in which the board's idle loop runs what service does beside the ticks.
+pub const ERRAND: &str = "ecu_stm32f405::app::app::run";
+
 /// Why an image cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ElfError {

@@ -31,13 +31,14 @@ pub(super) fn spoilt(machine: &MachineFile, parameters: &Parameters, dice: &mut 
         machine: name,
         parameters: *parameters,
         buckets: all(standard(&parameters.geometry), None).map_err(|error| error.to_string())?,
+        mounted: 0,
     };
     let mut sealed = Sealed::new(&record).map_err(|fault| fault.to_string())?;
     sealed.approve();
     let mut board = SimulatedBoard::new().map_err(|error| error.to_string())?;
     let mut store = Store::new(NorFlash::<SECTOR>::new()).map_err(|fit| format!("{fit:?}"))?;
     let permit = Disabled::new(board.parts()).map_err(|error| format!("{error:?}"))?;
-    store.write(permit, &sealed).map_err(|error| error.to_string())?;
+    store.write(&permit, &sealed).map_err(|error| error.to_string())?;
     let bytes = sealed.as_bytes().len() as u32;
     for sector in [0, SECTOR] {
         for _ in 0..1 + dice.next_u32() % 8 {

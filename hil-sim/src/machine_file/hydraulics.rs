@@ -172,11 +172,13 @@ impl FunctionTable {
             check(field, value, range)?;
         }
         let gap = conductance(self.cushion_lpm_at_1mpa * LPM, MPA);
-        let cushion = |length_m| Cushion { length_m, gap };
+        let areas = self.areas(name, stroke.is_some(), check)?;
+        // Made for its piston's side: at the same speed both ends brake with the same pressure.
+        let cushion = |side: usize, length_m| Cushion { length_m, gap: gap * areas[side] / areas[0] };
         let outlet = |lpm: f64| conductance(lpm * LPM, MPA);
         let leak = |lpm: f64| lpm * LPM / (10.0 * MPA);
         Ok(FunctionModel {
-            areas: self.areas(name, stroke.is_some(), check)?,
+            areas,
             stroke,
             dead_volume_m3: self.hose_l * 1e-3,
             dead_band: [self.dead_band_extend_percent, self.dead_band_retract_percent].map(|percent| percent * 0.01),
@@ -192,7 +194,7 @@ impl FunctionTable {
                 stribeck_speed: self.stribeck_speed,
                 viscous: self.viscous_friction,
             },
-            cushions: [cushion(self.retract_cushion_m), cushion(self.extend_cushion_m)],
+            cushions: [cushion(0, self.retract_cushion_m), cushion(1, self.extend_cushion_m)],
         })
     }
 

@@ -35,7 +35,7 @@ fn fields(record: &StoredRecord) -> Value {
             })
         })
         .collect();
-    json!({ "machine": name(&record.machine), "parameters": record.parameters, "buckets": buckets })
+    json!({ "machine": name(&record.machine), "parameters": record.parameters, "buckets": buckets, "mounted": record.mounted })
 }
 
 /// Every field as `path` and value, in the record's order.

@@ -18,29 +18,15 @@ pub(super) fn escape(text: &str) -> String {
     out
 }
 
-const STYLE: &str = "
-:root { color-scheme: light; }
-body { margin: 0 auto; padding: 1rem; max-width: 50rem; background: #fff; color: #1a1a1a;
-  font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
-h1 { font-size: 1.6rem; line-height: 1.2; margin: 0.5rem 0; }
-h2 { font-size: 1.2rem; margin: 2rem 0 0.5rem; }
-table { border-collapse: collapse; margin: 0.5rem 0; }
-th, td { text-align: left; vertical-align: top; padding: 0.25rem 1rem 0.25rem 0; border-bottom: 1px solid #ccc; }
-th { font-weight: 600; }
-td { font-variant-numeric: tabular-nums; }
-figure { margin: 0; }
-figure svg { display: block; width: 100%; height: auto; margin-left: -0.25rem; }
-figcaption { color: #333; margin-bottom: 0.5rem; }
-.alarm { border-left: 0.4rem solid #c81e14; background: #fdecea; padding: 0.5rem 1rem; margin: 1rem 0; }
-.note { border-left: 0.4rem solid #999; background: #f3f3f3; padding: 0.5rem 1rem; margin: 1rem 0; }
-.alarm p, .note p, .alarm ul { margin: 0; }
-@media print { body { max-width: none; } figure { break-inside: avoid; } }
-";
+const STYLE: &str = include_str!("page.css");
+/// The browser itself keeps the page from loading anything.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// A page being written. Every text given to it is escaped; only figures are taken as they are.
 pub(super) struct Page {
     text: String,
     figures: u32,
+    beside: Option<&'static str>,
 }
 
 impl Page {
@@ -49,10 +35,11 @@ impl Page {
         let heading = escape(heading);
         let text = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <title>{heading}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{heading}</h1>\n"
         );
-        Self { text, figures: 0 }
+        Self { text, figures: 0, beside: None }
     }
 
     fn line(&mut self, line: impl Display) {
@@ -78,6 +65,12 @@ impl Page {
         let items: String = items.iter().map(|item| format!("<li>{}</li>", escape(item))).collect();
         let title = escape(title);
         self.line(format_args!("<div class=\"alarm\" role=\"alert\"><p><b>{title}</b></p><ul>{items}</ul></div>"));
+    }
+
+    /// An element that stays in sight beside everything that follows, moved by a script; both are taken as they are.
+    pub(super) fn beside(&mut self, element: &str, script: &'static str) {
+        self.line(format_args!("<div class=\"run\">\n{element}<div class=\"figures\">"));
+        self.beside = Some(script);
     }
 
     /// Names and values.
@@ -110,7 +103,10 @@ impl Page {
     }
 
     /// The whole page.
-    pub(super) fn finish(self) -> String {
+    pub(super) fn finish(mut self) -> String {
+        if let Some(script) = self.beside {
+            self.line(format_args!("</div>\n</div>\n<script>\n{script}</script>"));
+        }
         self.text + "</body>\n</html>\n"
     }
 }

@@ -8,7 +8,7 @@
 //! - [`draw_only`] — the folder of a dig that is drawn but not run: `report.html`, `linkage.svg`, `dig.csv`.
 //!
 //! Inside, a `figures` module says what each figure shows and one file of it draws them all; `series` makes long series
-//! short; `html` is the page and escapes every text; `run` and `dig` put it together.
+//! short; `motion` shows the machine moving; `html` is the page and escapes every text; `run` and `dig` put it together.
 
 mod calibration;
 mod coil;
@@ -17,6 +17,7 @@ mod dig;
 mod figures;
 mod html;
 mod machine;
+mod motion;
 mod planar_arm;
 mod plant;
 mod run;

@@ -9,8 +9,9 @@ use kinematics_core::Machine;
 
 use super::csv::{lengths, write_log};
 use super::figures::linkage::Motion;
-use super::figures::{self, Figure, avoidance, fence, linkage, svg, timing, tracking, valves};
+use super::figures::{self, Figure, avoidance, fence, linkage, oil, svg, svg_with_cursors, timing, tracking, valves};
 use super::html::Page;
+use super::motion;
 use super::series::{Point, over_time};
 use crate::fence::Watch;
 use crate::run::{Log, ReachSeen, Summary};
@@ -29,23 +30,31 @@ pub fn write(scenario: &Scenario, log: &Log, summary: &Summary, folder: &Path) -
     page.paragraph(&scenario.description);
     page.note(super::SIMULATION);
     alarms(&mut page, summary);
+    // Loading the scenario has checked the geometry.
+    let machine = Machine::new(&scenario.machine.geometry).map_err(io::Error::other)?;
+    if let Some(stage) = motion::stage(scenario, &machine, log)? {
+        page.beside(&stage, motion::PLAYER);
+    }
     page.facts(&facts(scenario, summary));
-    for (name, figure) in figures(scenario, log)? {
-        let drawing = svg(&figure)?;
+    for (name, figure) in figures(scenario, &machine, log) {
         if let Some(name) = name {
-            fs::write(folder.join(name), &drawing)?;
+            fs::write(folder.join(name), svg(&figure)?)?;
         }
-        page.figure(figure.title, &figure.caption, &drawing);
+        page.figure(figure.title, &figure.caption, &svg_with_cursors(&figure)?);
     }
     fs::write(folder.join("report.html"), page.finish())
 }
 
 /// The figures, each with the name of the file it also gets.
-fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static str>, Figure)>> {
+fn figures(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> Vec<(Option<&'static str>, Figure)> {
     let until_s = scenario.duration_s;
-    // Loading the scenario has checked the geometry.
-    let machine = Machine::new(&scenario.machine.geometry).map_err(io::Error::other)?;
     let mut all = Vec::new();
+    // A run in which no path was followed has no error to draw.
+    if log.rows.iter().any(|row| row.tip_error_m().is_some()) {
+        all.push((None, tracking::figure(log, until_s)));
+    }
+    all.extend(oil::figures(log, until_s).into_iter().map(|figure| (None, figure)));
+    all.push((None, valves::figure(log, until_s)));
     if let Some(seen) = ReachSeen::of(scenario, log) {
         let drawn = avoidance::Drawn {
             chain: machine.chain(),
@@ -59,14 +68,9 @@ fn figures(scenario: &Scenario, log: &Log) -> io::Result<Vec<(Option<&'static st
         all.push((Some("fence.svg"), fence::figure(&watch, fence, log, until_s)));
         all.push((None, fence::speeds(log, until_s)));
     }
-    all.extend([
-        (Some("linkage.svg"), linkage_figure(scenario, &machine, log)),
-        (None, lengths_figure(scenario, log)),
-        (None, tracking::figure(log, until_s)),
-        (None, valves::figure(log, until_s)),
-    ]);
+    all.extend([(None, lengths_figure(scenario, log)), (Some("linkage.svg"), linkage_figure(scenario, machine, log))]);
     all.extend(timing::figure(log, until_s).map(|figure| (None, figure)));
-    Ok(all)
+    all
 }
 
 fn linkage_figure(scenario: &Scenario, machine: &Machine<f64>, log: &Log) -> Figure {

@@ -1,10 +1,11 @@
-//! What a run leaves: a row a tick, faults, stops, the hash of all outputs.
+//! What a run leaves: a row a tick, the machine from inside, faults, stops, the hash of all outputs.
 
 use std::time::Duration;
 
 use firmware::{Fault, Outputs};
 use kinematics_core::{Cylinders, Joints, Rotor};
 
+use super::inside::{GroundSeen, Inside};
 use crate::place::Timing;
 
 /// One tick.
@@ -59,6 +60,10 @@ pub struct Log {
     pub rows: Vec<Row>,
     /// A measurement a tick.
     pub timing: Vec<Timing>,
+    /// The machine from inside, every few ticks.
+    pub inside: Vec<Inside>,
+    /// The ground; empty of a plant without any.
+    pub ground: GroundSeen,
     /// Every fault latched.
     pub faults: Vec<FaultSeen>,
     /// Every stop hit.
@@ -75,6 +80,8 @@ impl Log {
         Self {
             rows: Vec::with_capacity(ticks),
             timing: Vec::with_capacity(ticks),
+            inside: Vec::new(),
+            ground: GroundSeen::default(),
             faults: Vec::new(),
             stop_hits: Vec::new(),
             output_hash: 0,

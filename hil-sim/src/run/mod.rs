@@ -2,6 +2,7 @@
 
 pub(crate) mod bus;
 mod injector;
+mod inside;
 mod log;
 mod operator;
 mod reach;
@@ -26,6 +27,7 @@ use bus::{Bus, Said};
 use wiring::{Measured, Wiring};
 
 pub use injector::{Healthy, Injector};
+pub use inside::{Cut, GroundSeen, Inside, OilSeen};
 pub use log::{FaultSeen, Log, Row, StopHit};
 pub use operator::{Doing, Operator};
 pub use reach::ReachSeen;
@@ -151,6 +153,10 @@ impl<'a> Run<'a> {
 
             let held: Vec<_> = self.plant.against_stops().collect();
             log.stops(time_s, &held);
+            if tick % inside::EVERY_TICKS == 0 {
+                log.inside.push(Inside::of(&self.plant, time_s));
+                log.ground.look(&self.plant, time_s);
+            }
             log.push(self.row(time_s, positions, &reply.outputs), reply.timing);
             self.break_coils(time_s);
             injector.plant(time_s, &mut self.plant, &reply.pins);

@@ -1,7 +1,7 @@
 //! The tables of path, grade, and the law they and tip velocity share.
 
 use firmware::grade::GradeParameters;
-use firmware::law::LawParameters;
+use firmware::law::{LawParameters, NO_OVERRUN};
 use firmware::path::{KNOTS, Knot, PathParameters};
 use kinematics_core::planning::effort::Piston;
 use serde::Deserialize;
@@ -65,12 +65,27 @@ pub(super) struct LawTable {
     bucket_bore_m: f64,
     bucket_rod_m: f64,
     flow_lpm: f64,
+    feedback_lag_s: f64,
+    lag_m: f64,
+    boom_overrun_kn: Option<[f64; 2]>,
+    arm_overrun_kn: Option<[f64; 2]>,
+    bucket_overrun_kn: Option<[f64; 2]>,
+    swing_overrun_deg_s2: Option<f64>,
 }
 
 impl LawTable {
     /// What only this file has is checked here: bores and rods; the rest when the controller's parameters are.
     pub(super) fn check(&self) -> Result<(), String> {
         let bore = [0.01, 1.0];
+        for (name, loads) in [
+            ("law.boom_overrun_kn", self.boom_overrun_kn),
+            ("law.arm_overrun_kn", self.arm_overrun_kn),
+            ("law.bucket_overrun_kn", self.bucket_overrun_kn),
+        ] {
+            for kn in loads.into_iter().flatten() {
+                super::check::within(&[(name, kn, [0.001, 10_000.0])])?;
+            }
+        }
         super::check::within(&[
             ("law.boom_bore_m", self.boom_bore_m, bore),
             ("law.boom_rod_m", self.boom_rod_m, [0.0, 0.99 * self.boom_bore_m]),
@@ -80,6 +95,9 @@ impl LawTable {
             ("law.bucket_bore_m", self.bucket_bore_m, bore),
             ("law.bucket_rod_m", self.bucket_rod_m, [0.0, 0.99 * self.bucket_bore_m]),
             ("law.flow_lpm", self.flow_lpm, [0.1, 10_000.0]),
+            ("law.feedback_lag_s", self.feedback_lag_s, [0.0, 2.0]),
+            ("law.lag_m", self.lag_m, [0.001, 1.0]),
+            ("law.swing_overrun_deg_s2", self.swing_overrun_deg_s2.unwrap_or(1.0), [0.06, 1000.0]),
             ("law.integral_per_s2", self.integral_per_s2, [0.0, 100.0]),
             ("law.bias_limit_mps", self.bias_limit_mps, [0.0, 0.1]),
             ("law.correction_limit_mps", self.correction_limit_mps, [0.0, 1.0]),
@@ -115,8 +133,17 @@ impl LawTable {
                 piston(self.bucket_bore_m, self.bucket_rod_m, 1),
             ],
             flow_m3ps: (self.flow_lpm / 60e3) as f32,
+            feedback_lag_s: self.feedback_lag_s as f32,
+            lag_m: self.lag_m as f32,
+            overrun_n: [self.boom_overrun_kn, self.arm_overrun_kn, self.bucket_overrun_kn].map(overrun),
+            swing_overrun_radps2: self.swing_overrun_deg_s2.map_or(NO_OVERRUN, |deg| deg.to_radians() as f32),
         }
     }
+}
+
+/// Of a cylinder whose load never runs ahead, where nothing is said.
+fn overrun(kn: Option<[f64; 2]>) -> [f32; 2] {
+    kn.map_or([NO_OVERRUN; 2], |pair| pair.map(|kn| (kn * 1e3) as f32))
 }
 
 impl PathTable {

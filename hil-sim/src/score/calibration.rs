@@ -11,11 +11,15 @@ use crate::plant::hydraulic::HydraulicModel;
 const GAIN: f64 = 0.03;
 const DEAD_BAND: f64 = 0.01;
 const DEAD_TIME_S: f64 = 0.02;
+/// Error of the load that runs ahead.
+const OVERRUN: f64 = 0.1;
 
 /// What the controller takes the valves for.
 pub(super) struct Believed {
     pub(super) coils: CoilStageParameters,
     pub(super) preview_s: f64,
+    /// See [`LawParameters::overrun_n`](firmware::law::LawParameters::overrun_n).
+    pub(super) overrun_n: [[f32; 2]; 3],
 }
 
 /// The map of `plant`, each direction's gain and dead band and the dead time wrong by what a calibration may be.
@@ -53,7 +57,10 @@ fn believed(plant: &HydraulicModel, coils: &CoilStageParameters, mut error: impl
             };
         }
     }
+    let overrun_n = [1, 2, 3].map(|function| {
+        [0, 1].map(|direction| (plant.functions[function].overrun_n(direction) * (1.0 + error(OVERRUN))) as f32)
+    });
     // Dead time, the spool's two lags, and the coil's.
     let lag_s = 2.0 / (core::f64::consts::TAU * plant.spool.natural_hz);
-    Believed { coils, preview_s: plant.spool.dead_time_s + lag_s + 0.005 + error(DEAD_TIME_S) }
+    Believed { coils, overrun_n, preview_s: plant.spool.dead_time_s + lag_s + 0.005 + error(DEAD_TIME_S) }
 }

@@ -2,7 +2,7 @@
 
 use firmware::State;
 
-use crate::run::{Log, Row};
+use crate::run::{FaultSeen, Log, Row};
 
 /// What a run leaves of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,32 +15,45 @@ pub(super) struct Deviation {
     pub(super) max_m: f64,
     /// 95th percentile of the run, m.
     pub(super) p95_m: f64,
-    /// The tip came within 50 mm of the path's end, and nothing stopped it.
-    pub(super) completed: bool,
+    /// When the tip was that far off, s.
+    pub(super) max_at_s: f64,
+    /// What stopped it.
+    pub(super) fault: Option<FaultSeen>,
+    /// From the path's end at last, m.
+    pub(super) to_end_m: f64,
     /// No coil changed its current in the last second.
     pub(super) still: bool,
 }
 
 /// Near enough to the end, m.
-const THERE_M: f64 = 0.05;
+pub(super) const THERE_M: f64 = 0.05;
+
+impl Deviation {
+    /// Root of the mean square, m.
+    pub(super) fn rmse_m(&self) -> f64 {
+        libm::sqrt(self.squares / self.ticks as f64)
+    }
+}
 
 pub(super) fn deviation(log: &Log, corners: &[[f64; 2]]) -> Option<Deviation> {
     let on_path = |row: &&Row| row.outputs.state == State::Running && row.outputs.dig_tick > 1;
-    let mut off: Vec<f64> =
-        log.rows.iter().filter(on_path).filter_map(|row| Some(distance(row.tip?, corners))).collect();
+    let far = |row: &Row| Some((distance(row.tip?, corners), row.time_s));
+    let mut off: Vec<(f64, f64)> = log.rows.iter().filter(on_path).filter_map(far).collect();
     let end = *corners.last()?;
     let last = log.rows.last()?;
     let to_end = last.tip.map(|[x, z]| libm::hypot(end[0] - x, end[1] - z))?;
     let rest = log.rows.iter().rev().take(1000);
     let still = rest.map(|row| row.outputs.currents).all(|currents| currents == last.outputs.currents);
-    off.sort_by(f64::total_cmp);
+    off.sort_by(|a, b| a.0.total_cmp(&b.0));
     let at = |share: f64| off.get(((off.len() as f64 - 1.0) * share + 0.5) as usize).copied();
     Some(Deviation {
-        squares: off.iter().map(|d| d * d).sum(),
+        squares: off.iter().map(|(d, _)| d * d).sum(),
         ticks: off.len(),
-        max_m: at(1.0)?,
-        p95_m: at(0.95)?,
-        completed: log.faults.is_empty() && to_end < THERE_M,
+        max_m: at(1.0)?.0,
+        p95_m: at(0.95)?.0,
+        max_at_s: at(1.0)?.1,
+        fault: log.faults.first().copied(),
+        to_end_m: to_end,
         still,
     })
 }

@@ -83,6 +83,38 @@ pub struct Row {
     pub completed: usize,
     /// Runs of ours whose coils were still in the last second.
     pub still_at_rest: usize,
+    /// Every run of ours.
+    pub by_plant: Vec<OnPlant>,
+}
+
+/// One plant of a row, under our controller.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OnPlant {
+    /// Number of the plant among those drawn, from 0.
+    pub plant: u64,
+    /// Of the true tip normal to the path, m.
+    pub rmse_m: f64,
+    /// Largest, m.
+    pub max_m: f64,
+    /// When it was, s.
+    pub max_at_s: f64,
+    /// Where the tip was at last, from the path's end, m.
+    pub to_end_m: f64,
+    /// Name of the fault that ended the run.
+    pub fault: Option<&'static str>,
+    /// When, s.
+    pub fault_at_s: Option<f64>,
+    /// The same with half the pump's flow.
+    pub half_flow_fault: Option<&'static str>,
+    /// When, s.
+    pub half_flow_fault_at_s: Option<f64>,
+}
+
+impl OnPlant {
+    /// The tip came near the path's end, and nothing stopped it.
+    pub fn completed(&self) -> bool {
+        self.fault.is_none() && self.to_end_m < measure::THERE_M
+    }
 }
 
 /// The score.
@@ -100,6 +132,7 @@ pub struct Report {
 #[derive(Clone, Copy, Debug)]
 struct Result1 {
     row: usize,
+    plant: u64,
     controller: Controller,
     deviation: Deviation,
 }
@@ -130,14 +163,14 @@ pub fn score(machine: &MachineFile, setting: &Setting, shard: Shard, done: impl 
         .into_par_iter()
         .map(|case| {
             let row = (case % bases.len() as u64) as usize;
-            let plant = setting.plants.first() + case / bases.len() as u64;
+            let plant = case / bases.len() as u64;
             let (task, _, base) = &bases[row];
             controllers(setting)
                 .iter()
                 .map(|&controller| {
-                    let deviation = run(base, *task, controller, plant)?;
+                    let deviation = run(base, *task, controller, setting.plants.first() + plant)?;
                     done();
-                    Ok(Result1 { row, controller, deviation })
+                    Ok(Result1 { row, plant, controller, deviation })
                 })
                 .collect()
         })
@@ -158,6 +191,9 @@ fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Resul
     };
     scenario.parameters.coils = believed.coils;
     scenario.parameters.motion.preview_s = believed.preview_s as f32;
+    if let Some(law) = &mut scenario.parameters.motion.law {
+        law.overrun_n = believed.overrun_n;
+    }
     controller.apply(&mut scenario.parameters, &mut drawn);
     scenario.hydraulic = Some(drawn);
     let mut host = Host::new(&scenario.parameters).map_err(|error| format!("{}: {error}", task.name()))?;
@@ -176,6 +212,7 @@ fn row(task: Task, speed_mps: f64, index: usize, results: &[Result1]) -> Row {
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let (open, proportional) = (rmse(Controller::OpenLoop), rmse(Controller::Proportional));
     let uncalibrated_rmse_m = rmse(Controller::Uncalibrated);
+    let by_plant = by_plant(index, results);
     Row {
         name: task.name(),
         speed_mps,
@@ -189,7 +226,28 @@ fn row(task: Task, speed_mps: f64, index: usize, results: &[Result1]) -> Row {
         uncalibrated_rmse_m,
         uncalibrated_max_m: uncalibrated_rmse_m.map(|_| largest(&mut of(Controller::Uncalibrated).map(|d| d.max_m))),
         half_flow_rmse_m: rmse(Controller::HalfFlow),
-        completed: of(Controller::Ours).filter(|d| d.completed).count(),
+        completed: by_plant.iter().filter(|on| on.completed()).count(),
         still_at_rest: of(Controller::Ours).filter(|d| d.still).count(),
+        by_plant,
     }
+}
+
+fn by_plant(index: usize, results: &[Result1]) -> Vec<OnPlant> {
+    let of = |controller| results.iter().filter(move |r| r.row == index && r.controller == controller);
+    let on = |ours: &Result1| {
+        let d = &ours.deviation;
+        let half = of(Controller::HalfFlow).find(|half| half.plant == ours.plant).and_then(|half| half.deviation.fault);
+        OnPlant {
+            plant: ours.plant,
+            rmse_m: d.rmse_m(),
+            max_m: d.max_m,
+            max_at_s: d.max_at_s,
+            to_end_m: d.to_end_m,
+            fault: d.fault.map(|seen| seen.fault.name()),
+            fault_at_s: d.fault.map(|seen| seen.at_s),
+            half_flow_fault: half.map(|seen| seen.fault.name()),
+            half_flow_fault_at_s: half.map(|seen| seen.at_s),
+        }
+    };
+    of(Controller::Ours).map(on).collect()
 }

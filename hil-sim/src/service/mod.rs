@@ -5,13 +5,15 @@
 pub mod calibrate;
 mod heard;
 
-use firmware::board::Controller;
+use firmware::board::{Controller, Disabled};
 use firmware::can::address::Addresses;
-use firmware::service::{ServiceRequest, Task};
+use firmware::service::{Done, Errand, ServiceRequest, Task};
 use firmware::simulated::link::NAME;
 use firmware::simulated::{Pins, SimulatedBoard};
-use firmware::{Intent, Outputs, SelfTest};
+use firmware::store::{Sealed, Store, StoredRecord};
+use firmware::{Fitted, Intent, Outputs, SelfTest};
 use kinematics_core::Machine;
+use sim_chips::nor_flash::NorFlash;
 
 use crate::plant::{Driven, Plant, SwingDrive};
 use crate::run::bus::{Bus, Said};
@@ -20,6 +22,9 @@ use crate::run::{Doing, RunError};
 use crate::scenario::{Events, Scenario};
 
 pub use heard::{FoundTip, FoundValves, Heard};
+
+/// The simulated sectors with the firmware's store.
+pub type ParameterStore = Store<NorFlash<4096>>;
 
 /// A simulated machine with its controller, and the hands on switches, levers and service tool.
 pub struct Workshop {
@@ -41,6 +46,11 @@ pub struct Workshop {
     pub heard: Heard,
     /// What the board did in the last tick.
     pub pins: Option<Pins>,
+    /// The ECU's parameter sectors, where it has a record.
+    pub store: Option<ParameterStore>,
+    /// So many ticks pass while an errand is run; at 0 it is back before the next.
+    pub errand_ticks: u32,
+    errand: Option<(u32, Errand<Fitted>)>,
     supply_v: f64,
     cut_off_closed: bool,
     events: Events,
@@ -70,6 +80,9 @@ impl Workshop {
             request: Some(idle()),
             heard: Heard::default(),
             pins: None,
+            store: None,
+            errand_ticks: 0,
+            errand: None,
             supply_v: scenario.supply_v,
             cut_off_closed: false,
             events: Events::default(),
@@ -87,6 +100,37 @@ impl Workshop {
         self.controller = controller;
     }
 
+    /// The controller that starts with this record in its store.
+    ///
+    /// # Errors
+    /// What it refuses, or that the store does not take it.
+    pub fn start_with(&mut self, record: &StoredRecord) -> Result<(), Box<dyn std::error::Error>> {
+        let mut store = Store::new(NorFlash::new()).map_err(|fit| format!("{fit:?}"))?;
+        let mut sealed = Sealed::new(record)?;
+        sealed.approve();
+        store.write(&Disabled::new(self.board.parts())?, &sealed)?;
+        let record = store.load()?.record;
+        let parameters = record.parameters_for(record.mounted.into())?;
+        self.install(Controller::new(&parameters, Addresses::DEFAULT, &NAME)?);
+        self.controller.set_buckets(record.bucket_count(), record.mounted);
+        self.store = Some(store);
+        Ok(())
+    }
+
+    /// What is done beside the ticks, once its time has passed; without a store nobody does it.
+    fn beside_the_ticks(&mut self) {
+        let Some(store) = &mut self.store else { return };
+        let due = self.controller.errand(self.board.parts());
+        self.errand = due.map(|errand| (self.errand_ticks, errand)).or(self.errand.take());
+        if let Some((_, errand)) = self.errand.take_if(|(left, _)| *left == 0) {
+            let done: Done<Fitted> = errand.run(store);
+            self.controller.done(done);
+        }
+        if let Some((left, _)) = &mut self.errand {
+            *left -= 1;
+        }
+    }
+
     /// One tick of all of it.
     pub fn tick(&mut self) -> Outputs {
         let said = Said { intent: self.intent, slope_deg: [0.0; 2], pressures_pa: self.plant.pressures_pa() };
@@ -102,6 +146,7 @@ impl Workshop {
         self.board.connect(&wires);
         let outputs = self.controller.cycle(self.board.parts(), false);
         let pins = self.board.pins();
+        self.beside_the_ticks();
         // The relay's contact follows within the tick.
         self.cut_off_closed = pins.cut_off_closed;
         self.plant.step(&Driven { duties: pins.duties, cut_off_closed: pins.cut_off_closed, supply_v });

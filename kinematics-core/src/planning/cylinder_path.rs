@@ -111,9 +111,9 @@ impl<T: Real, const K: usize> CylinderPath<T, K> {
             *last = T::ONE;
         }
         let mut cubics = [[Cubic { c: [T::ZERO; 4] }; 3]; K];
-        let of: [fn(&Cylinders<T>) -> T; 3] = [|c| c.boom, |c| c.arm, |c| c.bucket];
-        for (axis, of) in of.into_iter().enumerate() {
-            let one = natural_spline(&through.map(|c| of(&c)), &steps);
+        let of_axes = [through.map(|c| c.boom), through.map(|c| c.arm), through.map(|c| c.bucket)];
+        for (axis, lengths) in of_axes.iter().enumerate() {
+            let one = natural_spline(lengths, &steps);
             for (all, one) in cubics.iter_mut().zip(one) {
                 if let Some(slot) = all.get_mut(axis) {
                     *slot = one;

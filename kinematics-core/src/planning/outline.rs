@@ -407,22 +407,6 @@ impl<T: Real> Frames<T> {
     }
 }
 
-/// The four-bar's common pin J seen from the bucket pin, in the arm frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CommonPin<T> {
-    /// J − P, m.
-    pub(crate) from_bucket_pin: Vec2<T>,
-    /// Its derivative by θ4, m/rad.
-    pub(crate) per_bucket: Vec2<T>,
-}
-
-impl<T: Real> CommonPin<T> {
-    /// J at `rocker` from its pivot, which turns at `per_bucket` radians a radian of the bucket.
-    pub(crate) fn new(pivot: Vec2<T>, rocker: Vec2<T>, per_bucket: T) -> Self {
-        Self { from_bucket_pin: pivot + rocker, per_bucket: left(rocker).scale(per_bucket) }
-    }
-}
-
 /// Seen in the frame that turns with the swing.
 pub(super) fn unswing<T: Real>(swing: Rotor<T>, [x, y, z]: [T; 3]) -> [T; 3] {
     let v = swing.inverse().rotate(Vec2::new(x, y));

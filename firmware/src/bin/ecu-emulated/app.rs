@@ -6,7 +6,7 @@ mod app {
     use crate::emulated::session::Session;
     use crate::emulated::stopwatch::Stopwatch;
     use crate::emulated::{fail, stack, succeed};
-    use firmware::Followers;
+    use firmware::Fitted;
     use firmware::simulated::link::Request;
     use stm32f4::stm32f405::TIM2;
 
@@ -22,9 +22,9 @@ mod app {
         timer: TIM2,
     }
 
-    #[init(local = [followers: Followers = Followers::new()])]
+    #[init(local = [fitted: Fitted = Fitted::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
-        let Ok(session) = Session::open(Stopwatch::start(cx.device.TIM5), cx.local.followers) else { fail() };
+        let Ok(session) = Session::open(Stopwatch::start(cx.device.TIM5), cx.local.fitted) else { fail() };
         let timer = cx.device.TIM2;
         timer.arr().write(|w| w.arr().set(PERIOD_COUNTS));
         timer.dier().write(|w| w.uie().enabled());

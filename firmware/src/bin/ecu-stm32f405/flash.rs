@@ -51,6 +51,7 @@ impl ParameterFlash {
     }
 
     /// One operation under an unlocked controller: sets `control`, then stores `word` if there is one, and waits in RAM.
+    #[inline(never)]
     fn operate(&mut self, control: u32, store: Option<(usize, u32)>) -> Result<(), FlashError> {
         for key in KEYS {
             // SAFETY: the unlock sequence of RM0090, 3.6.1.
@@ -67,6 +68,15 @@ impl ParameterFlash {
             )
         });
         if status & ERRORS == 0 { Ok(()) } else { Err(NorFlashErrorKind::Other.into()) }
+    }
+
+    /// What was erased may stand in the data cache still; it is flushed while it is off (RM0090, 3.5.2).
+    fn forget_cached(&mut self) {
+        let control = self.0.acr();
+        control.modify(|_, w| w.dcen().clear_bit());
+        control.modify(|_, w| w.dcrst().set_bit());
+        control.modify(|_, w| w.dcrst().clear_bit());
+        control.modify(|_, w| w.dcen().set_bit());
     }
 }
 
@@ -124,7 +134,10 @@ impl NorFlash for ParameterFlash {
     fn erase(&mut self, from: u32, to: u32) -> Result<(), FlashError> {
         check_erase(self, from, to)?;
         let sector = |offset: u32| offset / SECTOR_BYTES as u32;
-        (sector(from)..sector(to)).try_for_each(|s| self.operate(SER | PSIZE_32 | (FIRST_SECTOR + s) << 3, None))
+        let erased =
+            (sector(from)..sector(to)).try_for_each(|s| self.operate(SER | PSIZE_32 | (FIRST_SECTOR + s) << 3, None));
+        self.forget_cached();
+        erased
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), FlashError> {

@@ -12,7 +12,7 @@ mod app {
     use crate::{safe_state, target};
     use core::cmp::max;
     use defmt_rtt as _;
-    use firmware::Followers;
+    use firmware::Fitted;
     use firmware::simulated::link::{Request, Spoil, Zone};
     use stm32f4::stm32f405::{TIM2, TIM3};
 
@@ -38,10 +38,10 @@ mod app {
         instructions: u32,
     }
 
-    #[init(local = [followers: Followers = Followers::new()])]
+    #[init(local = [fitted: Fitted = Fitted::new()])]
     fn init(mut cx: init::Context) -> (Shared, Local) {
         target::stack_guard::arm(&mut cx.core.MPU);
-        let Ok(session) = Session::open(Stopwatch::start(cx.device.TIM5), cx.local.followers) else { fail() };
+        let Ok(session) = Session::open(Stopwatch::start(cx.device.TIM5), cx.local.fitted) else { fail() };
         let (timer, watchdog) = (cx.device.TIM2, cx.device.TIM3);
         timer.arr().write(|w| w.arr().set(PERIOD_COUNTS));
         timer.dier().write(|w| w.uie().enabled());

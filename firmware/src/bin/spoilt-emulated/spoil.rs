@@ -9,7 +9,7 @@ use crate::target::constant_watch::ConstantWatch;
 
 /// Turns a bit: of the controller, or of the memory of planned motion behind it.
 pub(crate) fn flip(session: &mut Session, watch: &ConstantWatch, byte: u32, bit: u8) -> Zone {
-    let followers = session.followers_at();
+    let followers = session.fitted_at();
     let controller = &mut session.controller;
     let sizes = [size_of_val(controller), followers.1];
     let of_all = byte as usize % (sizes[0] + sizes[1]);

@@ -4,7 +4,7 @@ use kinematics_core::geometry::Stroke;
 
 use super::cushion::Cushion;
 use super::friction::Friction;
-use super::metering::{Flow, check, conductance, opening, orifice, relief};
+use super::metering::{Flow, check, conductance, in_series, opening, orifice, relief_behind};
 use super::oil::{ATMOSPHERE_PA, Oil};
 use super::pump::PumpModel;
 
@@ -59,6 +59,15 @@ impl FunctionModel {
         let (direction, sign) = if place > 0.0 { (0, 1.0) } else { (1, -1.0) };
         let open = opening(place * sign, self.dead_band[direction], self.fine);
         sign * open * self.meter_in_m3ps[direction] / self.areas[direction]
+    }
+
+    /// Load in the direction of motion (extend 0, retract 1) above which the outlet edge lets more go than the inlet gives, N: what a
+    /// calibration under a load finds.
+    pub fn overrun_n(&self, direction: usize) -> f64 {
+        let (driven, other) = (direction, 1 - direction);
+        let out = self.meter_in_m3ps[direction] * self.areas[other] / self.areas[driven];
+        let root = out / self.meter_out[direction];
+        root * root * self.areas[other]
     }
 }
 
@@ -173,14 +182,21 @@ impl Function {
         let model = &self.model;
         let mut flows =
             FunctionFlows { across: model.piston_leak * (pressures[0] - pressures[1]), ..Default::default() };
-        for (side, pressure) in flows.sides.iter_mut().zip(pressures) {
+        for (c, (side, pressure)) in flows.sides.iter_mut().zip(pressures).enumerate() {
             let over_tank = pressure - around.tank_pa;
             side.leak = Flow { flow: model.spool_leak * over_tank, slope: model.spool_leak };
-            side.relief = relief(self.relief_gain, pressure - ATMOSPHERE_PA, model.port_relief_pa);
             side.make_up = check(self.make_up, -over_tank);
+            // Extending empties the rod side towards the extended end, and the other way round.
+            let gap = model.cushions[c].gap(ends_m[c]);
+            let edge = opened.filter(|&(fed, _)| fed != c).map_or(0.0, |(fed, open)| open * model.meter_out[fed]);
+            side.out = orifice(in_series(edge, gap), over_tank);
+            // What the open edge leaves of the drop at the port, where the relief valve sits.
+            let at_port = 1.0 / (1.0 + (edge / gap) * (edge / gap));
+            let port_pa = around.tank_pa + at_port * over_tank - ATMOSPHERE_PA;
+            side.relief = relief_behind(gap, self.relief_gain, port_pa, model.port_relief_pa);
+            side.relief.slope *= at_port;
         }
         let Some((fed, open)) = opened else { return flows };
-        let other = 1 - fed;
         flows.fed = Some(fed);
         // The load-holding check valve lets nothing back into the gallery.
         if around.gallery_pa > pressures[fed] {
@@ -189,9 +205,6 @@ impl Function {
             let slope = |moves: bool| if moves { feed.slope } else { 0.0 };
             (flows.feed, flows.feed_by_gallery, flows.feed_by_side) = (feed.flow, slope(by_gallery), slope(by_side));
         }
-        // Extending empties the rod side towards the extended end, and the other way round.
-        let k = model.cushions[other].narrow(open * model.meter_out[fed], ends_m[other]);
-        flows.sides[other].out = orifice(k, pressures[other] - around.tank_pa);
         flows
     }
 }

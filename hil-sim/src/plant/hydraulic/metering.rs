@@ -26,15 +26,26 @@ pub fn conductance(flow: f64, drop_pa: f64) -> f64 {
     flow * sqrt(drop_pa + LAMINAR_PA) / drop_pa
 }
 
-/// Two openings in a row, as one conductance.
+/// Two openings in a row, as one conductance; the second may be infinite.
 pub(super) fn in_series(k: f64, other: f64) -> f64 {
-    k * other / sqrt(k * k + other * other)
+    k / sqrt(1.0 + (k / other) * (k / other))
 }
 
 /// A valve that opens in proportion above its setting: `gain` m³/s/Pa.
 pub(super) fn relief(gain: f64, pressure_pa: f64, setting_pa: f64) -> Flow {
     let over = pressure_pa - setting_pa;
     if over > 0.0 { Flow { flow: gain * over, slope: gain } } else { Flow::default() }
+}
+
+/// The same behind an opening of conductance `gap`, which may be infinite: q from over = q/gain + (q/gap)².
+pub(super) fn relief_behind(gap: f64, gain: f64, pressure_pa: f64, setting_pa: f64) -> Flow {
+    let over = pressure_pa - setting_pa;
+    if over <= 0.0 {
+        return Flow::default();
+    }
+    let (valve, square) = (1.0 / gain, 1.0 / (gap * gap));
+    let flow = 2.0 * over / (valve + sqrt(valve * valve + 4.0 * over * square));
+    Flow { flow, slope: 1.0 / (valve + 2.0 * flow * square) }
 }
 
 /// A check valve: the orifice one way, nothing the other.
@@ -67,6 +78,20 @@ mod tests {
         assert!((orifice(k, 1e6).flow - 5e-3).abs() < 1e-15);
         let (both, one) = (orifice(in_series(k, k), 2e7).flow, orifice(k, 1e7).flow);
         assert!((both / one - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_relief_valve_behind_an_opening_passes_what_both_pass_and_alone_what_it_would() {
+        let (gain, gap, setting) = (5e-9, 1e-6, 37e6);
+        let behind = |pressure: f64| relief_behind(gap, gain, pressure, setting);
+        assert_eq!(behind(setting).flow, 0.0);
+        let flow = behind(50e6).flow;
+        // The drop over the opening and what the valve needs to pass it.
+        assert!((flow * flow / (gap * gap) + flow / gain - 13e6).abs() < 1.0);
+        let by_difference = (behind(50e6 + 10.0).flow - behind(50e6 - 10.0).flow) / 20.0;
+        assert!((by_difference / behind(50e6).slope - 1.0).abs() < 1e-6);
+        let alone = relief_behind(f64::INFINITY, gain, 40e6, setting);
+        assert!((alone.flow / relief(gain, 40e6, setting).flow - 1.0).abs() < 1e-12 && alone.slope == gain);
     }
 
     #[test]

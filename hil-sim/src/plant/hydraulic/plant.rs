@@ -24,6 +24,10 @@ use crate::plant::{Defect, STEP_S};
 /// Pressure of the low side of a cylinder that stands, Pa above the atmosphere.
 const PRELOAD_PA: f64 = 1.0e6;
 
+/// Time constant in which a stop takes up a motion, s: piston, pins and links give that much, though here they are rigid. At once, the
+/// momentum would be thrown into the other joints, the lightest of them most: the bucket's cylinder at 4 m/s.
+const STOP_S: f64 = 0.01;
+
 /// Why a plant cannot start.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
@@ -240,7 +244,7 @@ impl HydraulicPlant {
         }
     }
 
-    /// Rates with every joint that would pass its end brought to it.
+    /// Rates with every joint that would pass its end held by its stop.
     fn held_by_stops(&mut self, free: [f64; 4], loads: &mut Loads) -> [f64; 4] {
         let mut rates = free;
         // Holding one joint may push another against its end: three at most.
@@ -266,15 +270,15 @@ impl HydraulicPlant {
         rates
     }
 
-    /// The rate that ends at the joint's end, where this one would pass it.
+    /// The rate that comes to rest at the joint's end, where this one would pass it.
     fn stopping_rate(&self, joint: usize, rate: f64) -> Option<f64> {
         let [low, high] = self.joints.range(joint)?;
-        let (angle, h) = (self.angles[joint], self.step_s);
-        let after = angle + h * rate;
-        if after > high {
-            Some((high - angle) / h)
-        } else if after < low {
-            Some((low - angle) / h)
+        let angle = self.angles[joint];
+        let (most, least) = ((high - angle) / STOP_S, (low - angle) / STOP_S);
+        if rate > most {
+            Some(most)
+        } else if rate < least {
+            Some(least)
         } else {
             None
         }

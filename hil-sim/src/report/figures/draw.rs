@@ -46,6 +46,35 @@ pub(in crate::report) fn svg(figure: &Figure) -> io::Result<String> {
     Ok(element(figure, 0.0)?.0)
 }
 
+/// The same with a line across every panel over time, hidden until a script moves it; it says what time is where.
+///
+/// # Errors
+/// The drawing backend's.
+pub(in crate::report) fn svg_with_cursors(figure: &Figure) -> io::Result<String> {
+    let svg = svg(figure)?;
+    let mut cursors = String::new();
+    let (_, mut top) = legend_places(&figure.legend);
+    for panel in &figure.panels {
+        let (from, until) = (top + above(panel), top + above(panel) + inside_height(panel));
+        if panel.x.is_time() {
+            let (left, right) = (units(LEFT), units(WIDTH - RIGHT));
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                cursors,
+                "<line class=\"cursor\" visibility=\"hidden\" data-from=\"{}\" data-until=\"{}\" data-left=\"{left}\" \
+                 data-right=\"{right}\" x1=\"{left}\" x2=\"{left}\" y1=\"{}\" y2=\"{}\" stroke=\"#141414\" stroke-width=\"{}\"/>",
+                panel.x.from,
+                panel.x.until,
+                units(from),
+                units(until),
+                units(1.2)
+            );
+        }
+        top = until + below(panel);
+    }
+    Ok(svg.replacen("</svg>", &(cursors + "</svg>"), 1))
+}
+
 /// Two figures beside each other as one SVG element, under the left one's name.
 ///
 /// # Errors

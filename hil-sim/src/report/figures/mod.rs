@@ -6,6 +6,7 @@ pub(super) mod events;
 pub(super) mod fence;
 pub(super) mod lengths;
 pub(super) mod linkage;
+pub(super) mod oil;
 pub(super) mod timing;
 pub(super) mod tracking;
 pub(super) mod valves;
@@ -15,7 +16,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::series::{Piece, Point};
 
-pub(super) use draw::{beside, svg};
+pub(super) use draw::{beside, svg, svg_with_cursors};
 
 /// Colours that stay apart for colour-blind eyes: Okabe and Ito 2008.
 pub(super) mod colours {
@@ -110,6 +111,11 @@ impl Axis {
         }
         let room = if high > low { 0.06 * (high - low) } else { 0.5 };
         Self::new(name, low - room, high + room)
+    }
+
+    /// An axis of time: panels over time name it below the last of them only.
+    pub(super) fn is_time(&self) -> bool {
+        matches!(self.name, "" | "time [s]")
     }
 
     /// The value this part of the way along it, 0 at its beginning.

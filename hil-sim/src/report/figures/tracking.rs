@@ -1,4 +1,4 @@
-//! How well the dig is followed: tip and cylinders.
+//! How well a dig, move or path is followed: tip and cylinders.
 
 use super::events::{RUNNING_KEY, moments, moments_key, running};
 use super::lengths::capital;
@@ -31,8 +31,8 @@ pub(in crate::report) fn figure(log: &Log, until_s: f64) -> Figure {
     Figure {
         title: "Tracking error",
         caption:
-            "While digging: distance of the simulated machine's true tip from where the dig wants it at that moment, \
-                  and each cylinder's true length against its reference. Each panel has its own scale."
+            "While a dig, move or path is followed: distance of the simulated machine's true tip from where it should be at \
+                  that moment, and each cylinder's true length against its reference. Each panel has its own scale."
                 .to_owned(),
         legend: [RUNNING_KEY].into_iter().chain(moments_key(log)).collect(),
         panels,

@@ -17,6 +17,15 @@ impl HydraulicPlant {
         [0, 1, 2, 3].map(|i| self.actuators.arms[i] * self.rates[i])
     }
 
+    /// What the filling side of swing, boom, arm, bucket takes by its motion, m³/s; positive extending.
+    pub fn flows_m3ps(&self) -> [f64; 4] {
+        let speeds = self.velocities();
+        [0, 1, 2, 3].map(|i| {
+            let [head, rod] = self.functions[i].model.areas;
+            speeds[i] * if speeds[i] > 0.0 { head } else { rod }
+        })
+    }
+
     /// Moment arms dL/dθ the forces act through, m/rad; 1 for a motor.
     pub fn moment_arms(&self) -> [f64; 4] {
         self.actuators.arms

@@ -1,0 +1,169 @@
+//! A load that pulls where the actuator goes: what leaves it through the outlet edge, and not the inlet, sets its speed.
+//!
+//! Inlet and outlet edge of a spool open together. While the inlet sets the speed, the outlet's pressure is the same at every opening; it
+//! balances one load, the *overrun* ([`LawParameters::overrun_n`]). A load beyond it empties the outlet faster, by the square root of their
+//! ratio (orifice flow), and the inlet cavitates. So the speed told to the valve is less by that root.
+
+//!
+//! A swing's load is its own inertia while it brakes: known from what is asked of it, without pressures.
+
+use kinematics_core::Real;
+
+use crate::TICK_S;
+use crate::diagnosis::Pressures;
+use crate::law::LawParameters;
+
+/// Loads are taken as their mean over about this time, so that ringing does not open and close the spool, s.
+const MEAN_S: f32 = 0.2;
+
+/// The same of braking, s.
+const BRAKING_MEAN_S: f32 = 0.1;
+
+/// A cylinder.
+#[derive(Clone, Copy, Debug)]
+struct Load {
+    areas_m2: [f32; 2],
+    overrun_n: [f32; 2],
+    /// What it pushes with, N: against a load that shortens it positive. `None` while a pressure is unknown.
+    push_n: Option<f32>,
+}
+
+/// The swing.
+#[derive(Clone, Copy, Debug)]
+struct Inertia {
+    /// rad/s².
+    overrun: f32,
+    /// The feed-forward of the last tick, rad/s.
+    speed: f32,
+    /// What it slows down by, mean, rad/s².
+    braking: f32,
+}
+
+/// The loads of swing, boom, arm and bucket.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Overrun {
+    swing: Inertia,
+    loads: [Load; 3],
+}
+
+impl Overrun {
+    pub(super) fn new(p: &LawParameters) -> Self {
+        let mut overruns = p.overrun_n.into_iter();
+        // As many overruns as areas.
+        let load = |areas_m2| Load { areas_m2, overrun_n: overruns.next().unwrap_or_default(), push_n: None };
+        let swing = Inertia { overrun: p.swing_overrun_radps2, speed: 0.0, braking: 0.0 };
+        Self { swing, loads: p.areas_m2.map(load) }
+    }
+
+    /// Nothing is known yet.
+    pub(super) fn reset(&mut self) {
+        (self.swing.speed, self.swing.braking) = (0.0, 0.0);
+        self.loads.iter_mut().for_each(|load| load.push_n = None);
+    }
+
+    /// One tick's pressures.
+    #[inline(always)]
+    pub(super) fn weigh(&mut self, pressures_pa: &Pressures) {
+        for (load, sides) in self.loads.iter_mut().zip(pressures_pa) {
+            let [head_m2, rod_m2] = load.areas_m2;
+            load.push_n = match sides {
+                [Some(head), Some(rod)] => {
+                    let push = *head * head_m2 - *rod * rod_m2;
+                    let mean = load.push_n.unwrap_or(push);
+                    Some(mean + (push - mean) * (TICK_S / MEAN_S))
+                }
+                _ => None,
+            };
+        }
+    }
+
+    /// What the swing's valve is told, so that the swing goes at `speed` where `feed_forward` is asked of it, rad/s.
+    pub(super) fn told_swing(&mut self, feed_forward: f32, speed: f32) -> f32 {
+        let swing = &mut self.swing;
+        let slower = if feed_forward > 0.0 || swing.speed > 0.0 {
+            swing.speed - feed_forward
+        } else {
+            feed_forward - swing.speed
+        };
+        swing.speed = feed_forward;
+        swing.braking += slower / BRAKING_MEAN_S - swing.braking * (TICK_S / BRAKING_MEAN_S);
+        // Only what goes the way the swing goes runs ahead.
+        if swing.braking > swing.overrun && speed * feed_forward > 0.0 {
+            speed * Real::sqrt(swing.overrun / swing.braking)
+        } else {
+            speed
+        }
+    }
+
+    /// What the valves are told, so that boom, arm and bucket go at these speeds.
+    #[inline(always)]
+    pub(super) fn told(&self, mut speeds: [f32; 3]) -> [f32; 3] {
+        for (speed, load) in speeds.iter_mut().zip(&self.loads) {
+            let Some(push) = load.push_n else { continue };
+            let [extend, retract] = load.overrun_n;
+            let (pulls, overrun) = if *speed > 0.0 { (-push, extend) } else { (push, retract) };
+            if pulls > overrun {
+                *speed *= Real::sqrt(overrun / pulls);
+            }
+        }
+        speeds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cylinder that extending runs ahead above 1 kN and retracting above 4 kN, with these sides.
+    fn told(head_pa: Option<f32>, rod_pa: Option<f32>, speed: f32) -> f32 {
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None };
+        let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
+        let mut overrun = Overrun { swing, loads: [load; 3] };
+        overrun.weigh(&[[head_pa, rod_pa]; 3]);
+        let [first, second, third] = overrun.told([speed; 3]);
+        assert_eq!([first, second], [third; 2]);
+        first
+    }
+
+    #[test]
+    fn a_load_four_times_the_overrun_halves_what_the_valve_is_told() {
+        assert_eq!(told(Some(1.6e6), Some(0.0), -0.2), -0.1);
+        assert_eq!(told(Some(0.0), Some(0.8e6), 0.2), 0.1);
+    }
+
+    #[test]
+    fn a_smaller_load_one_against_the_motion_and_an_unknown_one_change_nothing() {
+        for (head, rod, speed) in [
+            (Some(0.39e6), Some(0.0), -0.2),
+            (Some(1.6e6), Some(0.0), 0.2),
+            (Some(0.0), Some(0.8e6), -0.2),
+            (Some(1.6e6), None, -0.2),
+            (Some(1.6e6), Some(0.0), 0.0),
+        ] {
+            assert_eq!(told(head, rod, speed), speed);
+        }
+    }
+
+    #[test]
+    fn a_swing_runs_ahead_while_it_brakes_and_only_then() {
+        let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None };
+        let mut overrun = Overrun { swing, loads: [load; 3] };
+        for sign in [1.0, -1.0] {
+            overrun.reset();
+            let mut speed = 0.0;
+            for _ in 0..1000 {
+                speed += 0.0005;
+                assert_eq!(overrun.told_swing(sign * speed, sign * speed), sign * speed);
+            }
+            let mut told = 0.0;
+            for _ in 0..800 {
+                speed -= 0.0005;
+                told = overrun.told_swing(sign * speed, sign * speed);
+            }
+            // Braking by 0.5 rad/s², twenty-five times the overrun.
+            assert!((told / (sign * speed) - 0.2).abs() < 1e-3, "{told}");
+            assert_eq!(overrun.told_swing(sign * speed, -sign * 0.1), -sign * 0.1);
+        }
+    }
+}
