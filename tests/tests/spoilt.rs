@@ -16,7 +16,7 @@ fn turned_bits_of_constants_and_a_lost_timer_end_with_the_outputs_off_and_are_na
     let report = campaign(BITS, 1, Shard::WHOLE, || ()).unwrap_or_else(|error| panic!("{error}"));
     println!("{report:#?}");
     let watched = row(&report, "bit_of_watched_constants");
-    assert!(watched.runs >= 3 && watched.off == watched.runs, "{watched:?}");
+    assert!(watched.runs > 0 && watched.off == watched.runs, "{watched:?}");
     // A round of the watch, and the last one's rest; a bit may also be noticed by what it does.
     assert!(watched.off_ms.is_some_and(|ms| ms <= 500), "{watched:?}");
     assert!(watched.off_by.contains_key("parameters_corrupt"), "{watched:?}");
