@@ -16,7 +16,8 @@ fn main() {
         println!("cargo:rustc-link-arg-bins={argument}");
     }
     // Where defmt's strings go; only these images log.
-    let logging: &[&str] = if env!("CARGO_PKG_NAME") == "images" { &["ecu-stm32f405", "faults-emulated"] } else { &[] };
+    let logging: &[&str] =
+        if env!("CARGO_PKG_NAME") == "images" { &["ecu-stm32f405", "faults-emulated", "spoilt-emulated"] } else { &[] };
     for image in logging {
         println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
     }

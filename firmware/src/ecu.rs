@@ -8,6 +8,7 @@ use core::borrow::BorrowMut;
 use kinematics_core::{Cylinders, Pose};
 
 use crate::command::Intent;
+use crate::constants::{Constant, Constants};
 use crate::diagnosis::Diagnosis;
 use crate::fault::{Fault, State};
 use crate::fence::{Fenced, NO_CLEARANCE};
@@ -87,6 +88,27 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
     /// Takes the board's start-up report; before every step of it has passed nothing is enabled.
     pub fn self_tested(&mut self, report: &SelfTest) {
         self.supervisor.self_tested(report);
+    }
+
+    /// Where everything lies that is not written any more; `None` while a bucket is being mounted, which derives some of it anew.
+    // Not inlined: it is for the start.
+    #[inline(never)]
+    pub fn constants(&mut self) -> Option<Constants> {
+        if self.is_rebuilt() {
+            return None;
+        }
+        let (machine, fence, _) = self.fitted.as_mut()?.borrow_mut().parts()?;
+        let fence = fence.map_or([Constant::NOWHERE; 2], |fence| fence.constants());
+        let parts = [Constant::of(machine), Constant::of(&self.sensing), self.motion.constant()];
+        let parts = parts.into_iter().chain(self.supervisor.constants()).chain(self.diagnosis.constants());
+        let mut parts = parts.chain(self.valve.constants()).chain(fence);
+        Some([(); _].map(|()| parts.next().unwrap_or(Constant::NOWHERE)))
+    }
+
+    /// An errand is about to begin, under way or just over: it may fit another bucket.
+    #[inline(always)]
+    pub fn is_rebuilt(&self) -> bool {
+        self.service.runs_errand()
     }
 
     /// What was known at the first latched fault.

@@ -18,6 +18,7 @@ mod bytes;
 pub mod calibration;
 pub mod can;
 pub mod command;
+pub mod constants;
 pub mod diagnosis;
 pub mod dig;
 mod ecu;

@@ -7,6 +7,7 @@ pub mod coil;
 pub mod effort;
 pub mod faults;
 pub mod fence;
+pub mod flips;
 pub mod icd;
 pub mod image;
 pub mod machine;
@@ -57,6 +58,8 @@ enum Command {
     Soak(soak::SoakArgs),
     /// Break everything that can break, in every situation, thousands of times: what is seen, how soon, and the tip's way to standstill
     Faults(faults::FaultsArgs),
+    /// Turn bits of the controller's memory in the emulator, and lose its timer's interrupt: what stops it, what has no effect, what goes unseen
+    Flips(flips::FlipsArgs),
     /// Reach targets past obstacles in thousands of random scenes, and report how it went
     Scenes(scenes::ScenesArgs),
     /// Show the coil current loop on simulated solenoids: steps, dither, temperature and supply sweeps, fault times
@@ -112,6 +115,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Soak(args) }) => soak::main(&args),
         Ok(Hil { command: Command::Score(args) }) => score::main(&args),
         Ok(Hil { command: Command::Faults(args) }) => faults::main(&args),
+        Ok(Hil { command: Command::Flips(args) }) => flips::main(&args),
         Ok(Hil { command: Command::Coil(args) }) => coil::main(&args),
         Ok(Hil { command: Command::Calibrate(args) }) => calibrate::main(&args),
         Ok(Hil { command: Command::Plant(args) }) => plant::main(&args),

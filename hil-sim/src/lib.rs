@@ -17,6 +17,7 @@
 //! - [`score`] — the motion on plants that no tuning has seen;
 //! - [`shard`] — a part of many cases;
 //! - [`soak`] — hours of nominal work, and whether anything trips;
+//! - [`spoilt`] — bits of the controller's memory turned and interrupts lost, in the emulator;
 //! - [`scenes`] — obstacle avoidance in thousands of random scenes;
 //! - [`icd`] — the page and the DBC file of the CAN bus;
 //! - [`supervisor_page`] — the supervisor drawn, and the page of faults;
@@ -51,6 +52,7 @@ pub mod score;
 pub mod service;
 pub mod shard;
 pub mod soak;
+pub mod spoilt;
 pub mod supervisor_page;
 mod toml_text;
 pub mod travel;

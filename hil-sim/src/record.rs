@@ -2,7 +2,7 @@
 //!
 //! The file holds the very bytes the controller keeps in flash (`firmware::store::copy`).
 
-mod buckets;
+pub(crate) mod buckets;
 mod view;
 
 use std::path::{Path, PathBuf};

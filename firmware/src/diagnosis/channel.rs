@@ -5,6 +5,7 @@ use super::parameters::ActuatorLimits;
 use super::stuck::{Free, Sides, Stuck, StuckLimits};
 use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
 use crate::TICK_S;
+use crate::constants::Constant;
 use crate::sensing::SensorView;
 
 /// Share of the measured speed that a round keeps: a time constant of five rounds.
@@ -58,6 +59,11 @@ pub(super) struct Channel {
 }
 
 impl Channel {
+    /// Where its limits lie.
+    pub(super) const fn constant(&self) -> Constant {
+        Constant::of(&self.limits)
+    }
+
     pub(super) fn new(limits: &ActuatorLimits, SensorView { unit, stops }: SensorView) -> Self {
         let [out, back] = limits.full_speed;
         let (slower, faster) = if out < back { (out, back) } else { (back, out) };

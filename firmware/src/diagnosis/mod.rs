@@ -12,6 +12,7 @@ mod stuck;
 use kinematics_core::Cylinder;
 
 use crate::TICK_S;
+use crate::constants::Constant;
 use crate::fault::Fault;
 use crate::io::Speeds;
 use crate::sensing::SensorView;
@@ -77,6 +78,12 @@ impl Diagnosis {
             until_turn: model.span_rounds,
             begun: false,
         }
+    }
+
+    /// Where its constants lie.
+    pub(crate) fn constants(&self) -> [Constant; 5] {
+        let [swing, boom, arm, bucket] = self.channels.each_ref().map(Channel::constant);
+        [Constant::of(&self.model), swing, boom, arm, bucket]
     }
 
     /// One tick: the sensors' codes and the pressures.

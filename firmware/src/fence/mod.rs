@@ -16,6 +16,7 @@ mod to_come;
 use kinematics_core::swing::SwingCylinder;
 use kinematics_core::{Cylinders, Machine, PoseError, Rotor};
 
+use crate::constants::Constant;
 use crate::fault::Fault;
 use crate::io::{Speeds, limited};
 use crate::parameters::{ParameterError, ValveDirection};
@@ -107,6 +108,11 @@ impl Fence {
             sent: None,
             most: [0.0; 4],
         })
+    }
+
+    /// Where its limits and the linkage's outline lie.
+    pub(crate) const fn constants(&self) -> [Constant; 2] {
+        self.sweep.constants()
     }
 
     /// The wanted speeds, reduced where a limit asks for it.

@@ -12,6 +12,7 @@ use kinematics_core::{Cylinders, Joints, Machine, Rotor};
 use super::held;
 use super::parameters::{FenceParameters, Guards};
 use crate::TICK_S;
+use crate::constants::Constant;
 use crate::parameters::{ParameterError, ValveDirection};
 
 /// Where the machine will be once everything commanded has arrived.
@@ -63,6 +64,11 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
+    /// Where outline and limits lie.
+    pub(super) const fn constants(&self) -> [Constant; 2] {
+        [Constant::of(&self.outline), Constant::of(&self.fence)]
+    }
+
     pub(super) fn new(
         p: &FenceParameters,
         geometry: &kinematics_core::PinGeometry,

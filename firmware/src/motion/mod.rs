@@ -28,6 +28,7 @@ use kinematics_core::{Cylinders, Machine, Pose};
 
 use crate::can::command::Slope;
 use crate::command::Intent;
+use crate::constants::Constant;
 use crate::diagnosis::Pressures;
 use crate::dig::Dig;
 use crate::fault::Fault;
@@ -160,6 +161,11 @@ impl Motion {
             slew: p.motion.law.as_ref().map(Slew::new),
             request: Request::Neutral,
         }
+    }
+
+    /// Where the levers' constants lie.
+    pub(crate) const fn constant(&self) -> Constant {
+        Constant::of(&self.levers)
     }
 
     /// Back to standing still; the followers start over with it.

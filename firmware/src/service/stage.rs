@@ -98,6 +98,12 @@ impl Service {
         matches!(self.run, Run::Away | Run::Back)
     }
 
+    /// An errand is about to begin, under way or just over.
+    #[inline(always)]
+    pub(crate) fn runs_errand(&self) -> bool {
+        matches!(self.run, Run::Due | Run::Away | Run::Back)
+    }
+
     /// There is something to do, or to forget.
     #[inline(always)]
     pub(crate) fn attends(&self, inputs: &Inputs) -> bool {

@@ -6,6 +6,7 @@
 pub mod machine;
 pub mod self_test;
 
+use crate::constants::Constant;
 use crate::fault::{Fault, State};
 use crate::io::{Inputs, Request};
 use crate::parameters::Supply;
@@ -83,6 +84,11 @@ impl Supervisor {
             overruns: 0,
             idle: 0,
         }
+    }
+
+    /// Where its limits lie.
+    pub(crate) const fn constants(&self) -> [Constant; 2] {
+        [Constant::of(&self.supply_range_v), Constant::of(&self.sensor_supply_range_v)]
     }
 
     /// Its state.

@@ -11,6 +11,7 @@ use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
 use super::ramp::RampParameters;
 use super::spool::{Now, Shared, Spool};
+use crate::constants::Constant;
 use crate::io::{Solenoids, Speeds};
 use crate::near::near;
 use crate::parameters::{Coil, ParameterError, ValveDirection, within};
@@ -130,6 +131,12 @@ impl CoilStage {
         let p = parameters;
         p.validate()?;
         Ok(Self { shared: Shared::new(p), spools: p.spools.map(|spool| Spool::new(&spool, p.released_a)) })
+    }
+
+    /// Where its constants lie.
+    pub(crate) fn constants(&self) -> [Constant; 9] {
+        let mut maps = self.spools.iter().flat_map(Spool::constants);
+        [(); 9].map(|()| maps.next().unwrap_or(Constant::of(&self.shared)))
     }
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the

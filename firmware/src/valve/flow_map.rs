@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::constants::Constant;
 use crate::parameters::{Coil, ParameterError, ValveDirection, ordered, within};
 
 /// Points of a flow curve.
@@ -97,6 +98,11 @@ fn later<T>(halves: &[T; 2], from: impl Fn(&T) -> f32, speed: f32) -> &T {
 }
 
 impl FlowMap {
+    /// Where its curve lies.
+    pub(super) const fn constant(&self) -> Constant {
+        Constant::of(&self.pieces)
+    }
+
     /// From valid parameters.
     pub fn new(parameters: &FlowParameters) -> Self {
         let p = parameters;

@@ -13,6 +13,7 @@ use super::flow_map::FlowMap;
 use super::interlock::{Interlock, Side};
 use super::number::{duty_code, fraction, share};
 use super::ramp::Ramp;
+use crate::constants::Constant;
 use crate::io::Solenoids;
 use crate::supervisor::Gate;
 
@@ -97,6 +98,11 @@ pub(super) struct Spool {
 }
 
 impl Spool {
+    /// Where the constants of its two directions lie.
+    pub(super) fn constants(&self) -> Solenoids<Constant> {
+        self.directions.each_ref().map(|direction| direction.flow.constant())
+    }
+
     pub(super) fn new(spool: &SpoolParameters, released_a: f32) -> Self {
         let ([extend, retract], [ramp_extend, ramp_retract]) = (&spool.flow, &spool.ramp);
         let directions = [(extend, ramp_extend), (retract, ramp_retract)]

@@ -69,6 +69,8 @@ pub enum Cause {
     Spool(Defect),
     /// The pump's pressure: of every spool.
     NoPressure,
+    /// Bits of the stored parameter record, in both copies, before the start.
+    Record,
 }
 
 /// A row of the campaign.
@@ -93,7 +95,7 @@ const fn unseen(name: &'static str, cause: Cause, reason: &'static str) -> Kind 
 }
 
 /// Every fault.
-pub const KINDS: [Kind; 30] = [
+pub const KINDS: [Kind; 31] = [
     row("sensor_off", Cause::Sensor(Sensor::Off), 20.0),
     row("sensor_shorted", Cause::Sensor(Sensor::Shorted), 20.0),
     row("sensor_stuck", Cause::Sensor(Sensor::Stuck), 200.0),
@@ -145,6 +147,7 @@ pub const KINDS: [Kind; 30] = [
     row("sensor_converter_dead", Cause::Converter(0, Break::StuckHigh), 20.0),
     row("coil_converter_dead", Cause::Converter(1, Break::StuckLow), 20.0),
     row("tick_overrun", Cause::Overrun, 5.0),
+    row("record_corrupt", Cause::Record, 0.0),
     Kind {
         name: "spool_stuck",
         cause: Cause::Spool(Defect::Stuck),
@@ -163,6 +166,19 @@ pub const KINDS: [Kind; 30] = [
         Cause::NoPressure,
         "a machine that stands against its command looks stalled, unless the pressure on the driven side says otherwise",
     ),
+];
+
+/// Faults that no run on the host can have, and where they are tried.
+pub const ELSEWHERE: [(&str, &str); 3] = [
+    (
+        "constants_bit_flip",
+        "in emulation, `cargo hil flips`: a turned bit among the watched constants that parameters became is named within a round of the watch",
+    ),
+    (
+        "state_bit_flip",
+        "in emulation, `cargo hil flips`: of the state there is one copy; what a turned bit makes of it is seen only where another check meets it",
+    ),
+    ("timer_lost", "in emulation, `cargo hil flips`: the watchdog resets the chip after 50 ms"),
 ];
 
 /// Frames that the operator's panel takes up: the first of a tick.

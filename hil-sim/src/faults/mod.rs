@@ -1,6 +1,7 @@
 //! The fault campaign: every fault in every situation, thousands of runs; what is seen, how soon, and how far the tip still goes.
 
 mod kind;
+mod record;
 mod situation;
 mod spoil;
 mod tally;
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 use crate::machine_file::MachineFile;
 use crate::shard::Shard;
 
-pub use kind::{Bus, Cause, KINDS, Kind, Sensor};
+pub use kind::{Bus, Cause, ELSEWHERE, KINDS, Kind, Sensor};
 pub use situation::Situation;
 pub(crate) use situation::working as working_scenario;
 pub use tally::{Report, Row, Spread};

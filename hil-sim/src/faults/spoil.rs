@@ -158,7 +158,7 @@ impl Injector for Spoiler {
                 wires.overrun = true;
                 self.seen(time_s);
             }
-            Cause::Coil(_) | Cause::Spool(_) | Cause::NoPressure => {}
+            Cause::Coil(_) | Cause::Spool(_) | Cause::NoPressure | Cause::Record => {}
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::kind::{KINDS, Kind};
+use super::kind::{Cause, ELSEWHERE, KINDS, Kind};
 use super::situation::Situation;
 use super::trial::Found;
 
@@ -95,6 +95,7 @@ impl Report {
                     let of_kind = |found: &&Found| found.kind == Some(index) && !found.false_trip;
                     row(kind, &found.iter().filter(of_kind).copied().collect::<Vec<_>>())
                 })
+                .chain(ELSEWHERE.iter().map(elsewhere))
                 .collect(),
         }
     }
@@ -103,6 +104,11 @@ impl Report {
     pub fn holds(&self) -> bool {
         self.false_trips == 0 && self.faults.iter().all(|row| row.bound_held != Some(false))
     }
+}
+
+/// The row of a fault that is tried elsewhere: no runs, and where.
+fn elsewhere(&(name, reason): &(&'static str, &'static str)) -> Row {
+    row(&Kind { name, cause: Cause::Record, bound_ms: None, reason: Some(reason) }, &[])
 }
 
 fn row(kind: &Kind, found: &[Found]) -> Row {

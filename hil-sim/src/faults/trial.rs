@@ -4,6 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 use super::kind::{Cause, KINDS};
+use super::record;
 use super::situation::{self, BEGIN_S, DURATION_S, Mover, Situation};
 use super::spoil::Spoiler;
 use crate::machine_file::MachineFile;
@@ -64,6 +65,21 @@ pub(super) fn run(machine: &MachineFile, seed: u64, index: u64) -> Result<Found,
             false_trip: !log.faults.is_empty(),
         });
     };
+    if KINDS[kind].cause == Cause::Record {
+        let came = record::spoilt(machine, &scenario.parameters, &mut dice)?;
+        let seen = |at_s| (came != record::Came::Nothing).then_some(at_s);
+        let refused = came == record::Came::Refused;
+        return Ok(Found {
+            kind: Some(kind),
+            wait_s: seen(0.0),
+            detected_s: refused.then_some(0.0),
+            // A controller that is not built moves nothing.
+            travel_m: refused.then_some(0.0),
+            named: refused.then_some("record_refused"),
+            situation,
+            false_trip: false,
+        });
+    }
     let g = &machine.geometry;
     let stroke = [g.boom.stroke, g.arm.stroke, g.bucket.stroke][mover.spool - 1];
     let cause = KINDS[kind].cause;

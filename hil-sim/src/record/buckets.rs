@@ -26,14 +26,14 @@ struct Table {
 }
 
 /// The bucket the machine file has.
-pub(super) fn standard(geometry: &PinGeometry) -> Option<Bucket> {
+pub(crate) fn standard(geometry: &PinGeometry) -> Option<Bucket> {
     let pins = &geometry.bucket;
     let name = Name::new("standard")?;
     Some(Bucket { name, bucket_m: geometry.bucket_m, coupler_pin: pins.coupler_pin, coupler_m: pins.coupler_m })
 }
 
 /// The machine's own first, then the file's.
-pub(super) fn all(own: Option<Bucket>, file: Option<&Path>) -> Result<[Option<Bucket>; MAX_BUCKETS], RecordFileError> {
+pub(crate) fn all(own: Option<Bucket>, file: Option<&Path>) -> Result<[Option<Bucket>; MAX_BUCKETS], RecordFileError> {
     let mut buckets = [None; MAX_BUCKETS];
     buckets[0] = own;
     let Some(file) = file else { return Ok(buckets) };

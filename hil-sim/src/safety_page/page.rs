@@ -1,6 +1,6 @@
 //! The page's text.
 
-use crate::faults::KINDS;
+use crate::faults::{ELSEWHERE, KINDS};
 use crate::supervisor_page::NOT_SEEN;
 
 use super::requirements::Requirement;
@@ -67,7 +67,9 @@ Faults of the campaign (`cargo hil faults`) for which nothing promises that they
 const OUTSIDE: &str = "
 Outside the campaign, and neither detected nor shown:
 
-- A bit of memory that flips while the machine runs: one block of memory is tried at start-up, nothing checks it after that.
+- A bit of the controller's state that flips while it runs. One block of memory is tried at start-up; after that the images sum up the constants
+  that the parameters became, over and over (SR-28), and nothing else: a state changes each tick and there is one copy of it. `cargo hil flips`
+  turns bits of all of it in the emulator and counts what stops the machine, what has no effect, and what goes astray unseen.
 - A command that is wrong but well formed: a joystick that means something else than its operator, or somebody else's good messages.
 - Wrong geometry or limits that lie within their ranges: a record is only as right as the one who signs it off.
 - A wrong reading that agrees with the machine's motion, of any sensor: each is there once.
@@ -111,6 +113,9 @@ pub fn page(requirements: &[Requirement], tests: &[Test]) -> Result<String, Stri
     out += ORIENTATION;
     for kind in KINDS.iter().filter(|kind| kind.bound_ms.is_none()) {
         out += &format!("| `{}` | {} |\n", kind.name, kind.reason.unwrap_or_default());
+    }
+    for (name, reason) in ELSEWHERE {
+        out += &format!("| `{name}` | not on the host; {reason} |\n");
     }
     out += "\nSeen, but late:\n\n| fault | bound | why |\n|---|---|---|\n";
     for kind in &KINDS {

@@ -217,6 +217,7 @@ pub const REQUIREMENTS: &[Requirement] = &[
             "a_first_write_that_is_cut_leaves_nothing_that_is_taken_for_a_record",
             "a_flipped_bit_anywhere_in_one_copy_leaves_the_other",
             "random_bytes_are_no_record_and_no_panic",
+            "a_parameter_record_spoilt_in_both_copies_is_refused_before_anything_moves",
         ],
     ),
     promise(
@@ -250,6 +251,25 @@ pub const REQUIREMENTS: &[Requirement] = &[
             "an_hour_of_random_levers_on_the_harness_s_plant_trips_nothing",
             "a_machine_that_stands_still_for_ten_minutes_with_noise_neither_trips_nor_counts_as_moving",
             "a_healthy_coil_never_has_a_fault",
+        ],
+    ),
+    promise(
+        "SR-28",
+        "A bit that turns by itself among the watched constants that the parameters became stops the machine until a restart, within a round of the \
+         watch; a timer that is lost for ever ends by the watchdog after 50 ms; one lost tick changes next to nothing.",
+        &["turned_bits_of_constants_and_a_lost_timer_end_with_the_outputs_off_and_are_named"],
+    ),
+    promise(
+        "SR-29",
+        "Whatever bytes come by CAN, as a parameter record, a machine or scenario file, or from either end of the emulator's link: no panic, no NaN \
+         in an output, nothing driven behind a closed gate, and what is refused is named.",
+        &[
+            "can_frames_never_panic_and_leave_no_nan",
+            "parameter_records_are_refused_by_name_or_run_without_a_nan",
+            "machine_files_are_refused_by_name_or_give_a_pose",
+            "scenario_files_are_refused_by_name_or_run_without_a_nan",
+            "both_ends_of_the_emulator_link_take_any_bytes",
+            "every_target_has_its_file_its_corpus_and_its_function",
         ],
     ),
 ];

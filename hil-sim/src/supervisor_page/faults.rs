@@ -134,9 +134,11 @@ const fn about(fault: Fault) -> About {
             ("A cylinder strayed too far from its reference.", "1 tick", "Check for a stall; slow the trajectory.")
         }
         Fault::Trajectory => ("The reference left what the machine can reach.", "1 tick", "Change the trajectory."),
-        Fault::ParametersCorrupt => {
-            ("The stored parameters' CRC is wrong.", "at start-up", "Store them again; replace the controller.")
-        }
+        Fault::ParametersCorrupt => (
+            "The stored parameters' CRC is wrong, or what they became in memory has changed by itself.",
+            "at start-up; in memory a round of the watch, `cargo hil flips`",
+            "Store them again; replace the controller.",
+        ),
         Fault::Memory => ("The memory test failed.", "at start-up", "Replace the controller."),
         Fault::ConverterSetUp => {
             ("A converter's configuration does not read back.", "at start-up", "Replace the controller.")

@@ -15,12 +15,14 @@ pub(crate) struct Session {
     pub(crate) controller: Controller<&'static mut Fitted>,
     pub(crate) stopwatch: Stopwatch,
     board: SimulatedBoard,
-    /// Address and size of what planned motion needs of memory.
+    /// Address and size of what is fitted to the bucket.
+    #[allow(dead_code)] // as below
     fitted: [usize; 2],
 }
 
 impl Session {
     /// Where the controller's memory lies beside itself, and how many bytes.
+    #[allow(dead_code)] // only the image that is spoilt asks
     pub(crate) fn fitted_at(&self) -> (*mut u8, usize) {
         let [address, bytes] = self.fitted;
         (core::ptr::with_exposed_provenance_mut(address), bytes)

@@ -5,6 +5,7 @@
 mod app {
     use crate::flash::ParameterFlash;
     use crate::pins::{self, Chips, Ecu405, StartError};
+    use crate::target::constant_watch::{CORRUPT, ConstantWatch};
     use crate::{log, safe_state, target};
     use cortex_m::singleton;
     use firmware::board::Controller;
@@ -38,6 +39,7 @@ mod app {
     struct Local {
         board: Ecu405,
         controller: &'static mut Controller<Memory>,
+        watch: ConstantWatch,
         timer: CounterHz<TIM2>,
         store: Store<ParameterFlash>,
     }
@@ -78,7 +80,8 @@ mod app {
             safe_state::halt(&|| defmt::error!("no such tick rate"));
         }
         timer.listen(Event::Update);
-        (Shared { errand: None, done: None }, Local { board, controller, timer, store })
+        let watch = ConstantWatch::new();
+        (Shared { errand: None, done: None }, Local { board, controller, watch, timer, store })
     }
 
     /// The stored parameters with the mounted bucket, how many buckets there are and which is mounted; without them nothing ever moves. Not
@@ -127,7 +130,7 @@ mod app {
         errand.run(store)
     }
 
-    #[task(binds = TIM2, local = [board, controller, timer, late: bool = false], shared = [errand, done])]
+    #[task(binds = TIM2, local = [board, controller, watch, timer, late: bool = false], shared = [errand, done])]
     fn tick(mut cx: tick::Context) {
         let tick::LocalResources { board, controller, timer, late, .. } = cx.local;
         timer.clear_flags(Flag::Update);
@@ -139,6 +142,10 @@ mod app {
         controller.write(board, &outputs);
         if let Some(due) = controller.errand(board) {
             cx.shared.errand.lock(|errand| *errand = Some(due));
+        }
+        // After the errand: what it will write is not watched while it is lent.
+        if !cx.local.watch.look(controller.ecu()) {
+            controller.self_tested(&CORRUPT);
         }
         log::leave(&outputs);
         // The next period has begun already: this one ended too late, and the next tick says so.
