@@ -16,7 +16,7 @@ use crate::freeze_frame::FreezeFrame;
 use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Followers, Motion, Wanted};
 use crate::parameters::{ParameterError, Parameters};
-use crate::pose::pose;
+use crate::pose::{maps, pose};
 use crate::sensing::Sensing;
 use crate::service::Service;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
@@ -65,7 +65,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
     pub fn with(parameters: &Parameters, followers: F) -> Result<Self, ParameterError> {
         let p = parameters;
         p.validate()?;
-        let machine = Machine::new(&p.geometry)?;
+        let machine = maps(&p.geometry)?;
         let sensing = Sensing::new(&p.swing_sensor, &p.cylinder_sensors, [&p.supply, &p.sensor_supply], &machine)
             .ok_or(ParameterError::NoSwingCylinder)?;
         let dig = p.dig.as_ref().map(Dig::new);

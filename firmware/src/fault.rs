@@ -164,6 +164,7 @@ impl Fault {
         all
     };
     /// Whether only a restart clears it: memory, scheduling or the cut-off itself cannot be trusted any more.
+    #[inline]
     pub const fn needs_restart(self) -> bool {
         matches!(
             self,
@@ -179,6 +180,7 @@ impl Fault {
     }
 
     /// Whether the sensors' lengths, and so the pose, mean nothing while it lasts.
+    #[inline]
     pub const fn hides_pose(self) -> bool {
         matches!(self, Self::Sensor(_) | Self::Geometry | Self::Jump(_) | Self::Stuck(_))
     }

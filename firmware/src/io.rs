@@ -50,11 +50,13 @@ impl Speeds {
     pub const ZERO: Self = Self { swing: 0.0, boom: 0.0, arm: 0.0, bucket: 0.0 };
 
     /// In the order of [`SPOOLS`].
+    #[inline]
     pub const fn to_array(self) -> [f32; 4] {
         [self.swing, self.boom, self.arm, self.bucket]
     }
 
     /// From the order of [`SPOOLS`].
+    #[inline]
     pub const fn from_array([swing, boom, arm, bucket]: [f32; 4]) -> Self {
         Self { swing, boom, arm, bucket }
     }

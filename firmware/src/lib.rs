@@ -8,7 +8,7 @@
 //!              the supervisor watches every stage and alone opens the gate between fence and valve
 //! ```
 //!
-//! The images under `src/bin` and the desktop harness are thin callers of it.
+//! The images (package `images`) and the desktop harness are thin callers of it.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -31,6 +31,7 @@ impl Scale {
     }
 
     /// Length (m); `None` outside the valid codes. Valid codes beyond an end of the stroke (noise at the stop) mean that end.
+    #[inline]
     fn length(&self, code: u16) -> Option<f32> {
         if code < self.first_valid || code > self.last_valid {
             return None;
@@ -119,11 +120,13 @@ impl Sensing {
     }
 
     /// Supply voltage, V: valid whatever the other sensors say.
+    #[inline]
     pub fn supply_v(&self, inputs: &Inputs) -> f32 {
         f32::from(inputs.supply_code) * self.volts_per_code
     }
 
     /// Voltage of the position sensors' supply, V.
+    #[inline]
     pub fn sensor_supply_v(&self, inputs: &Inputs) -> f32 {
         f32::from(inputs.sensor_supply_code) * self.sensor_volts_per_code
     }
@@ -132,6 +135,7 @@ impl Sensing {
     ///
     /// # Errors
     /// The sensor at fault.
+    #[inline]
     pub fn read(&self, inputs: &Inputs) -> Result<Sensed, Cylinder> {
         let [swing_code, boom_code, arm_code, bucket_code] = inputs.codes;
         let [boom, arm, bucket] = &self.cylinders;

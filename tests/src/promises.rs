@@ -164,7 +164,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// All Rust files of the loop: kinematics-core/src, and firmware/src but for its images (`bin`) and what they share (`emulated`, `target`).
+/// All Rust files of the loop: kinematics-core/src and firmware/src.
 ///
 /// # Panics
 /// When a folder cannot be read.
@@ -182,9 +182,7 @@ fn collect(folder: &str, files: &mut Vec<(String, String)>) {
         let entry = entry.unwrap_or_else(|e| panic!("{folder}: {e}"));
         let path = format!("{folder}/{}", entry.file_name().to_string_lossy());
         if entry.path().is_dir() {
-            if !["firmware/src/bin", "firmware/src/emulated", "firmware/src/target"].contains(&path.as_str()) {
-                collect(&path, files);
-            }
+            collect(&path, files);
         } else if path.ends_with(".rs") {
             let text = fs::read_to_string(entry.path()).unwrap_or_else(|e| panic!("{path}: {e}"));
             files.push((path, text));

@@ -36,10 +36,8 @@ pub(crate) fn flash_bytes(file: &[u8]) -> Result<u64, &'static str> {
         }
     }
     match (flash, entered) {
-        (0, _) => {
-            Err("the image is empty: nothing in it would be loaded (are firmware/build.rs's link arguments used?)")
-        }
-        (_, false) => Err("the entry point is not in loaded code (are firmware/build.rs's link arguments used?)"),
+        (0, _) => Err("the image is empty: nothing in it would be loaded (are images/build.rs's link arguments used?)"),
+        (_, false) => Err("the entry point is not in loaded code (are images/build.rs's link arguments used?)"),
         (flash, true) => Ok(flash),
     }
 }

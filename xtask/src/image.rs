@@ -1,4 +1,4 @@
-//! Builds the ARM images: the binaries of package `firmware`.
+//! Builds the ARM images: the binaries of packages `images` and `control-tick`.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::elf;
 use crate::process::{Outcome, announce, line, stream};
 
 /// Flags meant for the host (a CPU, a linker) break an image, and link arguments given here would replace those of
-/// firmware/build.rs; an image takes none of them.
+/// images/build.rs; an image takes none of them.
 const FLAGS: [&str; 4] =
     ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_RUSTFLAGS", "CARGO_TARGET_THUMBV7EM_NONE_EABIHF_RUSTFLAGS"];
 
@@ -25,10 +25,8 @@ pub(crate) fn build(names: &[String], toolchain: &Toolchain) -> Outcome<Vec<Path
     let mut cargo = toolchain.build();
     cargo.args([
         "--profile=image",
-        "--package",
-        "firmware",
-        "--features",
-        "simulated",
+        "--package=images",
+        "--package=control-tick",
         "--message-format=json-render-diagnostics",
     ]);
     if names.is_empty() {
@@ -48,7 +46,7 @@ pub(crate) fn build(names: &[String], toolchain: &Toolchain) -> Outcome<Vec<Path
         return Err(format!("`{}` failed", line(&cargo)));
     }
     if paths.is_empty() {
-        return Err("package firmware has no binaries: there is no image to build".into());
+        return Err("packages images and control-tick have no binaries: there is no image to build".into());
     }
     for path in &paths {
         let size = check(path)?;

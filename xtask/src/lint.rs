@@ -25,10 +25,9 @@ pub(crate) fn command() -> Outcome<bool> {
             let images = [
                 "clippy",
                 "--profile=image",
-                "--package",
-                "firmware",
-                "--features",
-                "simulated",
+                "--package=firmware",
+                "--package=images",
+                "--package=control-tick",
                 "--lib",
                 "--bins",
                 "--target",

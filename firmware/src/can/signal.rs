@@ -51,19 +51,24 @@ pub enum Unusable {
     OutOfRange,
 }
 
+/// A word of the tables, for the pages and data bases that a host writes from them: an image for a board holds none of them.
+pub(super) const fn words(text: &'static str) -> &'static str {
+    if cfg!(target_os = "none") { "" } else { text }
+}
+
 const UNSCALED: Scale = Scale { factor: 1.0, offset: 0.0, unit: "" };
 
 impl Signal {
     /// A number.
     pub const fn measured(name: &'static str, start: u8, length: u8, scale: Scale, range: [f32; 2]) -> Self {
         assert!(length == 8 || length == 16 || length == 24, "a number has 8, 16 or 24 bits");
-        Self { name, start, length, kind: Kind::Measured, scale, range }
+        Self { name: words(name), start, length, kind: Kind::Measured, scale, range }
     }
 
     /// Named states.
     pub const fn states(name: &'static str, start: u8, length: u8, states: &'static [(u32, &'static str)]) -> Self {
         let highest = ((1_u64 << length) - 1) as f32;
-        Self { name, start, length, kind: Kind::States(states), scale: UNSCALED, range: [0.0, highest] }
+        Self { name: words(name), start, length, kind: Kind::States(states), scale: UNSCALED, range: [0.0, highest] }
     }
 
     /// Plain bits.

@@ -92,6 +92,7 @@ impl Channel {
     }
 
     /// The first code ever.
+    #[inline]
     pub(super) fn begin(&mut self, code: u16) {
         (self.code, self.round_code, self.round_before) = (code, code, code);
     }

@@ -93,6 +93,7 @@ pub(super) struct Envelope {
 
 impl Envelope {
     /// The speed there must be, if nothing holds the actuator back.
+    #[inline]
     pub(super) fn sure(&self) -> f32 {
         self.sure
     }

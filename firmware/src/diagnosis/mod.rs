@@ -77,6 +77,7 @@ impl Diagnosis {
     }
 
     /// One tick: the sensors' codes and the pressures.
+    #[inline]
     pub fn judge(&mut self, codes: &[u16; 4], pressures: &Pressures) {
         if !self.begun {
             self.begun = true;
@@ -130,6 +131,7 @@ impl Diagnosis {
     }
 
     /// What went to the valves in this tick.
+    #[inline]
     pub fn sent(&mut self, speeds: &Speeds) {
         self.sent = speeds.to_array();
     }
@@ -146,11 +148,13 @@ impl Diagnosis {
     }
 
     /// Speeds as measured: swing, boom, arm, bucket, m/s or rad/s.
+    #[inline]
     pub fn speeds(&self) -> Speeds {
         Speeds::from_array(self.channels.each_ref().map(Channel::speed))
     }
 
     /// Some actuator moves.
+    #[inline]
     pub fn moving(&self) -> bool {
         self.channels.iter().any(|channel| channel.moving)
     }

@@ -41,6 +41,7 @@ pub(super) struct Stuck {
     free: u8,
 }
 
+#[inline]
 fn far(x: f32, limit: f32) -> bool {
     x >= limit || x <= -limit
 }

@@ -6,9 +6,10 @@ use super::Ecu;
 use crate::dig::Dig;
 use crate::fence::Fence;
 use crate::motion::Followers;
+use crate::pose::maps;
 use crate::store::StoredRecord;
 use crate::travel::violation_among;
-use kinematics_core::{Machine, PinGeometry};
+use kinematics_core::PinGeometry;
 
 /// Ticks of the dig tried in a tick of the controller.
 const DIG_TICKS: u32 = 64;
@@ -86,11 +87,7 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
                 Some(Step::Fence)
             }
             Step::Fence => {
-                if let Some(fence) = &p.fence {
-                    let geometry = buckets.geometry().ok_or(Unusable)?;
-                    let built = Fence::new(fence, &geometry, &self.machine, &p.coils.valves());
-                    self.fence = Some(built.map_err(|_| Unusable)?);
-                }
+                self.put_fence(buckets).ok_or(Unusable)?;
                 Some(Step::Dig(0))
             }
             Step::Dig(from) => {
@@ -110,8 +107,18 @@ impl<F: BorrowMut<Followers>> Ecu<F> {
         })
     }
 
+    // Not inlined, so that a fence does not lie on the stack while motion plans.
+    #[inline(never)]
+    fn put_fence(&mut self, buckets: &Buckets) -> Option<()> {
+        let p = &buckets.record.parameters;
+        if let Some(fence) = &p.fence {
+            self.fence = Some(Fence::new(fence, &buckets.geometry()?, &self.machine, &p.coils.valves()).ok()?);
+        }
+        Some(())
+    }
+
     fn put_maps(&mut self, buckets: &Buckets) -> Option<()> {
-        self.machine = Machine::new(&buckets.geometry()?).ok()?;
+        self.machine = maps(&buckets.geometry()?).ok()?;
         Some(())
     }
 }

@@ -113,16 +113,19 @@ impl Fence {
     ///
     /// # Errors
     /// [`Fault::Geometry`] where the pose ahead does not exist.
+    #[inline]
     pub fn limit(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Result<Fenced, Fault> {
         self.weigh(machine, sensed, wanted).ok_or(Fault::Geometry)
     }
 
     /// Forgets what was near: nothing passes until every limit has been weighed again.
+    #[inline]
     pub fn reset(&mut self) {
         self.sweep.reset();
         self.most = [0.0; 4];
     }
 
+    #[inline]
     fn weigh(&mut self, machine: &Machine<f32>, sensed: &Sensed, wanted: &Speeds) -> Option<Fenced> {
         let wanted = wanted.to_array();
         let speeds = if self.sent.is_none() {
@@ -143,6 +146,7 @@ impl Fence {
     }
 
     /// Where the machine will be once everything commanded has arrived, and its actuators there.
+    #[inline]
     fn ahead(&mut self, sensed: &Sensed) -> Option<(Ahead, [f32; 4])> {
         let measured = sensed.lengths;
         let of_swing = match &self.swing {
@@ -179,6 +183,7 @@ impl Fence {
     }
 
     /// The swing this travel of its actuator further, and dθ1 by that travel there.
+    #[inline]
     fn swing_ahead(&self, swing: Rotor<f32>, travel: f32) -> Result<(Rotor<f32>, f32), PoseError<f32>> {
         match &self.swing {
             Swing::Motor => Ok((swing * turned_by(travel), 1.0)),
@@ -190,6 +195,7 @@ impl Fence {
     }
 
     /// Counts what was really commanded this tick: with the tick before, if that kept within limits.
+    #[inline]
     pub fn sent(&mut self, speeds: &Speeds) {
         let speeds = speeds.to_array();
         let Some(before) = self.sent.take() else {

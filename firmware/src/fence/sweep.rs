@@ -105,12 +105,13 @@ impl Sweep {
     }
 
     /// The next tick's share of the work is [`Self::begin`].
+    #[inline]
     pub(super) fn begins(&self) -> bool {
         matches!(self.next, Next::Bend)
     }
 
     /// The first tick's share of a sweep: the joints and their transmissions; `None` where the linkage ahead does not close.
-    #[inline(never)]
+    #[inline]
     pub(super) fn begin(&mut self, machine: &Machine<f32>, ahead: &Ahead, wish: [f32; 4]) -> Option<()> {
         let lengths = &ahead.lengths;
         let joints = machine.cylinders_to_joints(lengths).ok()?;
@@ -125,7 +126,7 @@ impl Sweep {
     }
 
     /// The share of any tick after the first; `None` where the bucket's linkage does not close.
-    #[inline(never)]
+    #[inline]
     pub(super) fn go_on(&mut self, machine: &Machine<f32>) -> Option<()> {
         match self.next {
             Next::Bend => {}
@@ -139,6 +140,7 @@ impl Sweep {
         Some(())
     }
 
+    #[inline]
     fn reach(&mut self, part: usize) {
         let mut tip = None;
         let strips = guarded(&self.placed, self.guards, &mut tip);
@@ -147,6 +149,7 @@ impl Sweep {
     }
 
     /// Weighs strips from this one on against the first limit from this number on; after the last, what was found is what is near.
+    #[inline]
     fn weigh_from(&mut self, mut number: usize, strip: usize) {
         let mut tip = None;
         let strips = guarded(&self.placed, self.guards, &mut tip);
@@ -162,13 +165,16 @@ impl Sweep {
             Some(next) if next < count => Next::Weigh(number, next),
             Some(_) if number + 1 < LIMITS => Next::Weigh(number + 1, 0),
             _ => {
-                (self.near, self.near_ahead, self.near_wish) = (self.found, self.ahead, self.scene.wish);
+                self.near.clone_from(&self.found);
+                self.near_ahead = self.ahead;
+                self.near_wish = self.scene.wish;
                 Next::Bend
             }
         };
     }
 
     /// What is let through of the wanted speeds, and of any until this is called again.
+    #[inline]
     pub(super) fn limit(&self, ahead: &Ahead, wanted: [f32; 4], receding: &[f32; 4]) -> Within {
         let moved = self.near_ahead.until(ahead);
         let too_far = |(&moved, spare): (&f32, f32)| moved > spare || moved < -spare;
@@ -182,6 +188,7 @@ impl Sweep {
     }
 
     /// The smallest clearance of the last sweep, m.
+    #[inline]
     pub(super) fn closest_m(&self) -> f32 {
         self.near.closest
     }
@@ -195,11 +202,13 @@ pub(super) struct Within {
 }
 
 /// The strips of a part, by number.
+#[inline]
 fn part_of(part: usize) -> Range<usize> {
     part * PART..(part + 1) * PART
 }
 
 /// The strips that are guarded; `tip` is room for the teeth's.
+#[inline]
 fn guarded<'a>(placed: &'a PlacedOutline<f32>, guards: Guards, tip: &'a mut Option<Strip<f32>>) -> &'a [Strip<f32>] {
     match guards {
         Guards::Linkage => &placed.strips,
@@ -209,6 +218,7 @@ fn guarded<'a>(placed: &'a PlacedOutline<f32>, guards: Guards, tip: &'a mut Opti
 
 impl Ahead {
     /// How far the actuators have moved from here to there.
+    #[inline]
     fn until(&self, there: &Self) -> [f32; 4] {
         let (from, to) = (&self.lengths, &there.lengths);
         // In two sweeps the swing turns by hundredths of a radian: its sine is the angle to 1e-5.

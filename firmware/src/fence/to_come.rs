@@ -73,6 +73,7 @@ impl ToCome {
     }
 
     /// Two ticks at these speeds, of an actuator measured at `position` between these ends of its travel, m or rad.
+    #[inline]
     pub(super) fn command(&mut self, [first, second]: [f32; 2], position: f32, [low, high]: [f32; 2]) {
         let target =
             if first == second { self.opening(first) } else { 0.5 * (self.opening(first) + self.opening(second)) };
@@ -118,6 +119,7 @@ impl ToCome {
     /// The speed at the spool's opening, and the way until it has closed. From s to its dead band d it closes as s·exp(−t/τ),
     /// which moves the actuator by `v·τ·(1 − d/(s − d)·ln(s/d))`; `ln x ≥ 3(x² − 1)/(x² + 4x + 1)` (its Padé approximant) bounds it
     /// by `v·τ·(s − d)(s + 2d)/(s² + 4sd + d²)`.
+    #[inline]
     fn at_spool(&self) -> (f32, f32) {
         let [extend, retract] = &self.valve;
         let (valve, opening) = if self.spool > 0.0 { (extend, self.spool) } else { (retract, -self.spool) };
@@ -132,11 +134,13 @@ impl ToCome {
     }
 
     /// The speed at the spool's opening, a dead time ahead.
+    #[inline]
     pub(super) fn speed(&self) -> f32 {
         self.speed
     }
 
     /// What is still to come, m or rad.
+    #[inline]
     pub(super) fn travel(&self) -> f32 {
         self.under_way as f32 * (1.0 / UNITS) + self.closing
     }
@@ -150,6 +154,7 @@ mod tests {
         [ValveDirection { dead_band: 0.15, full_speed: 0.4 }, ValveDirection { dead_band: 0.2, full_speed: 0.3 }];
 
     /// The same valve with its dead time, followed step by step until it rests.
+    #[inline]
     fn really_to_come(commands: &[f32], delay: usize) -> f32 {
         let mut real = ToCome::new(&VALVE, 0.0, 0.05);
         let travel = [-10.0, 10.0];

@@ -41,6 +41,7 @@ impl Coordination {
     }
 
     /// Speed of the swing's actuator for a rad/s of swing: 1 of a motor, the moment arm of a cylinder.
+    #[inline]
     pub(super) fn swing_lever(&self, machine: &Machine<f32>, pose: &Pose<f32>) -> Result<f32, Fault> {
         let Some(cylinder) = machine.swing_cylinder() else { return Ok(1.0) };
         let length = cylinder.length(pose.swing).map_err(|_| Fault::Geometry)?;
@@ -48,7 +49,7 @@ impl Coordination {
     }
 
     /// One factor for all speeds (swing rad/s): within full speeds, pump flow, and what stops before the ends of the strokes.
-    #[inline(always)]
+    #[inline]
     pub(super) fn factor(&self, [swing, boom, arm, bucket]: [f32; 4], lever: f32, ahead: &Cylinders<f32>) -> f32 {
         let speeds = [swing * lever, boom, arm, bucket];
         let factor = self.limits.factor(&speeds, self.share);
@@ -81,7 +82,7 @@ impl Coordination {
     }
 
     /// Closes the loop: speeds that bring the actuators to where `ahead` was a preview ago.
-    #[inline(always)]
+    #[inline]
     pub(super) fn close(
         &mut self,
         delays: &mut Delays,

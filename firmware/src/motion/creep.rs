@@ -10,6 +10,7 @@ pub(super) struct Creep {
 impl Creep {
     pub(super) const REST: Self = Self { moving: false };
 
+    #[inline]
     pub(super) fn pass(&mut self, speed: f32, smallest: f32) -> f32 {
         let threshold = if self.moving { 0.5 * smallest } else { smallest };
         self.moving = speed >= threshold || speed <= -threshold;

@@ -59,12 +59,14 @@ impl Delays {
     }
 
     /// As [`DelayLine::pass`], of a dig.
+    #[inline]
     pub(super) fn dig(&mut self, tick: u32, values: [f32; 3]) -> [f32; 3] {
         let (cylinders, _) = self.kept.split_at_mut(OF_CYLINDERS);
         self.dig.pass(cylinders.as_chunks_mut().0, tick, values)
     }
 
     /// As [`DelayLine::pass`], of a planned move.
+    #[inline]
     pub(super) fn planned(&mut self, tick: u32, values: [f32; 1]) -> [f32; 1] {
         self.planned.pass(self.kept.as_chunks_mut().0, tick, values)
     }

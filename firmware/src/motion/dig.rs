@@ -56,6 +56,7 @@ impl DigFollower {
     }
 
     /// Speeds for this tick of the dig.
+    #[inline]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
@@ -78,6 +79,7 @@ impl DigFollower {
     }
 
     /// One tick of the dig. The dig's own time starts when the dead time is over: until then only the feed-forward sees it.
+    #[inline]
     fn step(
         &mut self,
         machine: &Machine<f32>,

@@ -63,6 +63,7 @@ impl GradeFollower {
     }
 
     /// Outwards and level in the boom's plane, as the chassis stands: perpendicular to the world's up in it.
+    #[inline]
     fn level(slope: Option<Slope>, swing: Rotor<f32>) -> Rotor<f32> {
         let Some(Slope { roll, pitch }) = slope else { return Rotor::IDENTITY };
         let up = roll.sin * pitch.cos * swing.sin - pitch.sin * swing.cos;

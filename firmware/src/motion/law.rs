@@ -95,6 +95,7 @@ impl Law {
     }
 
     /// Whether every cylinder is near enough to where a path starts.
+    #[inline]
     pub(super) fn check_start(&self, errors: [f32; 4]) -> Result<(), Fault> {
         let [_, cylinders @ ..] = errors;
         let near = |error: f32| error >= -self.start_tolerance_m && error <= self.start_tolerance_m;
@@ -124,6 +125,7 @@ impl Law {
     }
 
     /// Speeds, from the feed-forward and reference − measured; the swing stands still unless it `swings`.
+    #[inline]
     pub(super) fn speeds(&mut self, feed_forward: [f32; 4], errors: [f32; 4], swings: bool) -> Result<[f32; 4], Fault> {
         let quiet = self.tick <= self.quiet_until;
         let mut speeds = [0.0; 4];

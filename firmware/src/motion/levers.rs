@@ -20,6 +20,7 @@ impl Levers {
     }
 
     /// Speeds the levers ask for; one that asks for less than the smallest speed asks for none.
+    #[inline]
     pub(super) fn speeds(&self, levers: [i16; 4]) -> Speeds {
         let mut speeds = [0.0; 4];
         for ((speed, lever), [extend, retract]) in speeds.iter_mut().zip(levers).zip(self.full_speeds) {

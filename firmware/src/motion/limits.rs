@@ -19,6 +19,7 @@ pub(super) struct Limits {
 }
 
 /// Lowers `factor` to what keeps `value` within `limit`.
+#[inline]
 fn keep(factor: &mut f32, value: f32, limit: f32) {
     if value * *factor > limit {
         *factor = limit / value;
@@ -37,6 +38,7 @@ impl Limits {
     }
 
     /// Ends of the strokes: \[longest, shortest\], m.
+    #[inline]
     pub(super) fn ends_m(&self) -> [[f32; 2]; 3] {
         self.ends_m
     }
@@ -76,6 +78,7 @@ impl Limits {
     }
 
     /// Each speed for itself, slow enough to stop before the end of its stroke.
+    #[inline]
     pub(super) fn cushion(&self, lengths: &Cylinders<f32>, mut speeds: Speeds) -> Speeds {
         let [boom_ends, arm_ends, bucket_ends] = self.ends_m;
         for (length, speed, ends) in [
@@ -91,6 +94,7 @@ impl Limits {
     }
 
     /// The speed allowed this far before the end, m/s, where `speed` is more than that.
+    #[inline]
     fn cushioned(&self, length: f32, speed: f32, [longest, shortest]: [f32; 2]) -> Option<f32> {
         let left = if speed > 0.0 { longest - length } else { length - shortest };
         let square = if left > 0.0 { self.cushion * left } else { 0.0 };

@@ -49,11 +49,13 @@ impl Modes {
     }
 
     /// Lever speeds, slow enough before the ends of the strokes.
+    #[inline]
     pub(super) fn cushion(&self, lengths: &Cylinders<f32>, speeds: Speeds) -> Speeds {
         self.shared.limits.cushion(lengths, speeds)
     }
 
     /// One tick of the mode asked for; `speeds` are those of the last tick, `arm_mps` what the arm's lever asks for.
+    #[inline]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,

@@ -63,6 +63,7 @@ impl Segment {
         }
     }
 
+    #[inline]
     fn place(&self, share: f32) -> Place {
         let mut place = self.from;
         for (place, change) in place.iter_mut().zip(self.change) {
@@ -72,6 +73,7 @@ impl Segment {
     }
 }
 
+#[inline]
 fn tip([reach, height, pitch, _]: Place) -> PlaneTip<f32> {
     PlaneTip { reach, height, pitch: Rotor::from_turns(pitch) }
 }
@@ -188,6 +190,7 @@ impl PathFollower {
         Ok(wanted)
     }
 
+    #[inline]
     fn first_place(&self) -> Place {
         let [first, ..] = &self.segments;
         first.map_or([0.0; 4], |segment| segment.from)
@@ -207,6 +210,7 @@ impl PathFollower {
         Ok(())
     }
 
+    #[inline]
     fn advance(&mut self, number: usize, duration_s: f32, factor: f32) {
         self.time_s.add(TICK_S * factor);
         if self.time_s.value() >= duration_s {

@@ -64,7 +64,7 @@ impl MoveFollower {
     }
 
     /// Speeds for this tick of the move; at its end it holds.
-    #[inline(never)]
+    #[inline]
     pub(super) fn follow(&mut self, lengths: &Cylinders<f32>, delays: &mut Delays) -> Result<Wanted, Fault> {
         let path = self.planned.path.as_ref().ok_or(Fault::NotConfigured)?;
         if self.elapsed == 0 {

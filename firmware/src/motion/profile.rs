@@ -40,6 +40,7 @@ impl Profile {
     }
 
     /// Way and speed (1/s) at a time, s.
+    #[inline]
     pub(super) fn at(&self, time_s: f32) -> (f32, f32) {
         let left_s = self.duration_s - time_s;
         let half = 0.5 * self.top * self.ramp_s;

@@ -65,12 +65,13 @@ impl ReachFollower {
         self.rest();
     }
 
+    #[inline]
     fn rest(&mut self) {
         (self.creep, self.speeds, self.chosen) = ([Creep::REST; 4], [0.0; 4], false);
     }
 
     /// One tick: planning at first, then towards the target, then rest.
-    #[inline(never)]
+    #[inline]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
@@ -99,6 +100,7 @@ impl ReachFollower {
     }
 
     /// The actuators' speeds for these joint rates, within their full speeds.
+    #[inline]
     fn speeds_of(
         &self,
         rates: [f32; 4],
@@ -119,6 +121,7 @@ impl ReachFollower {
     }
 
     /// One factor for all, so that the way stays the same and no distance shrinks faster than planned.
+    #[inline]
     fn within_full(&self, speeds: [f32; 4]) -> [f32; 4] {
         let mut share = 1.0_f32;
         for (speed, [extend, retract]) in speeds.into_iter().zip(self.full_speeds) {

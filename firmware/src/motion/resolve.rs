@@ -6,7 +6,8 @@ use kinematics_core::{Cylinders, Machine, PlaneTip};
 use crate::fault::Fault;
 
 /// Lengths of a tip and their rates, m/s, for its twist. Angles stay out of it: joints, moment arms and the Jacobian's inverse.
-#[inline(always)]
+// Once for all modes: it is two kilobytes.
+#[inline]
 pub(super) fn resolve(
     machine: &Machine<f32>,
     tip: &PlaneTip<f32>,

@@ -21,10 +21,12 @@ impl Slew {
     }
 
     /// The speeds given last: swing, boom, arm, bucket.
+    #[inline]
     pub(super) fn speeds(&self) -> [f32; 4] {
         self.speeds
     }
 
+    #[inline]
     pub(super) fn pass(&mut self, wanted: Speeds) -> Speeds {
         for ((speed, wanted), step) in self.speeds.iter_mut().zip(wanted.to_array()).zip(self.steps) {
             *speed = limited(wanted, *speed - step, *speed + step);

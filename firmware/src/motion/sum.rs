@@ -13,6 +13,7 @@ impl Sum {
     }
 
     /// Adds a step smaller than the sum.
+    #[inline]
     pub(super) fn add(&mut self, step: f32) {
         let step = step + self.low;
         let sum = self.high + step;
@@ -20,6 +21,7 @@ impl Sum {
         self.high = sum;
     }
 
+    #[inline]
     pub(super) fn value(&self) -> f32 {
         self.high
     }

@@ -17,10 +17,12 @@ pub(super) struct Tracker {
     creep: [Creep; 3],
 }
 
+#[inline]
 pub(super) fn for_each(a: Cylinders<f32>, b: Cylinders<f32>, f: impl Fn(f32, f32) -> f32) -> Cylinders<f32> {
     Cylinders { boom: f(a.boom, b.boom), arm: f(a.arm, b.arm), bucket: f(a.bucket, b.bucket) }
 }
 
+#[inline]
 fn all_within(c: Cylinders<f32>, limit: f32) -> bool {
     [c.boom, c.arm, c.bucket].into_iter().all(|x| x >= -limit && x <= limit)
 }
@@ -56,6 +58,7 @@ impl Tracker {
     }
 
     /// Speeds towards the reference.
+    #[inline]
     pub(super) fn speeds(
         &mut self,
         feed_forward: Cylinders<f32>,

@@ -229,10 +229,12 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, CopyFault> {
     if CRC.checksum(data) != header.data_crc {
         return Err(CopyFault::Data);
     }
-    let (record, rest) = postcard::take_from_bytes::<StoredRecord>(data).map_err(|_| CopyFault::Malformed)?;
+    // By reference from where it was read: moved out, the stack may hold it twice.
+    let taken = postcard::take_from_bytes::<StoredRecord>(data);
+    let (record, rest) = taken.as_ref().map_err(|_| CopyFault::Malformed)?;
     if !rest.is_empty() {
         return Err(CopyFault::Malformed);
     }
     record.validate().map_err(CopyFault::Record)?;
-    Ok(Decoded { record, sequence: header.sequence, approved: header.approves(data) })
+    Ok(Decoded { record: *record, sequence: header.sequence, approved: header.approves(data) })
 }

@@ -137,17 +137,19 @@ impl<F: NorFlash> Store<F> {
         let copies = [self.read(0).map_err(LoadError::Flash)?, self.read(1).map_err(LoadError::Flash)?];
         let swapped = second_is_newer(&copies);
         let [newest, other] = if swapped { [&copies[1], &copies[0]] } else { [&copies[0], &copies[1]] };
-        let (decoded, other) = match (decode(newest), decode(other)) {
+        // By reference, as the records are: moved about, the stack may hold each several times.
+        let (first, second) = (decode(newest), decode(other));
+        let (decoded, other) = match (&first, &second) {
             (Ok(newest), Ok(other)) if newest.sequence == other.sequence => (newest, OtherCopy::Same),
             (Ok(newest), Ok(_)) => (newest, OtherCopy::Older),
-            (Ok(newest), Err(fault)) => (newest, OtherCopy::Bad(fault)),
+            (Ok(newest), Err(fault)) => (newest, OtherCopy::Bad(*fault)),
             // Data were complete and checked before a header was programmed: a whole header over spoilt data has decayed, and
             // what it headed was newer than what is left.
             (Err(fault), Ok(other)) if sequence(newest).is_some_and(|newest| newest != other.sequence) => {
-                return Err(LoadError::OnlyOlder(fault));
+                return Err(LoadError::OnlyOlder(*fault));
             }
-            (Err(fault), Ok(other)) => (other, OtherCopy::Bad(fault)),
-            (Err(newest_fault), Err(other_fault)) => {
+            (Err(fault), Ok(other)) => (other, OtherCopy::Bad(*fault)),
+            (&Err(newest_fault), &Err(other_fault)) => {
                 let in_order = if swapped { [other_fault, newest_fault] } else { [newest_fault, other_fault] };
                 return Err(LoadError::BothBad(in_order));
             }

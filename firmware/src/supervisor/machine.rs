@@ -40,22 +40,26 @@ impl Facts {
 
     /// These and those.
     #[must_use]
+    #[inline]
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     /// These and, where `holds`, those.
     #[must_use]
+    #[inline]
     pub const fn and_if(self, holds: bool, other: Self) -> Self {
         if holds { self.and(other) } else { self }
     }
 
     /// Whether all of those are among these.
+    #[inline]
     pub const fn has(self, all: Self) -> bool {
         self.0 & all.0 == all.0
     }
 
     /// Whether any of those is among these.
+    #[inline]
     pub const fn has_any(self, of: Self) -> bool {
         self.0 & of.0 != 0
     }
@@ -101,6 +105,7 @@ static FAULT: [Transition; 2] = [STOP, arrow(AT_REST, Facts::ENABLE.and(Facts::W
 static STOPPED: [Transition; 0] = [];
 
 /// The arrows out of a state; the first that fits is taken, none means to stay.
+#[inline]
 pub fn transitions(from: State) -> &'static [Transition] {
     match from {
         State::SelfTest => &SELF_TEST,
@@ -113,6 +118,7 @@ pub fn transitions(from: State) -> &'static [Transition] {
 }
 
 /// The state after this tick.
+#[inline]
 pub fn next(state: State, facts: Facts) -> State {
     let taken = transitions(state).iter().find(|arrow| facts.has(arrow.all) && !facts.has_any(arrow.none));
     taken.map_or(state, |arrow| arrow.to)

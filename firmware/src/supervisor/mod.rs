@@ -86,11 +86,13 @@ impl Supervisor {
     }
 
     /// Its state.
+    #[inline]
     pub fn state(&self) -> State {
         self.state
     }
 
     /// The latched fault.
+    #[inline]
     pub fn fault(&self) -> Option<Fault> {
         self.fault
     }
@@ -101,6 +103,7 @@ impl Supervisor {
     }
 
     /// Judges one tick.
+    #[inline]
     pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
         let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
         self.count(inputs, at_rest && !watched.moving);
@@ -132,6 +135,7 @@ impl Supervisor {
         gate
     }
 
+    #[inline]
     fn count(&mut self, inputs: &Inputs, idle: bool) {
         let astray = inputs.cut_off_closed != self.told_closed;
         self.cut_off_astray = if astray { self.cut_off_astray.saturating_add(1) } else { 0 };
@@ -140,6 +144,7 @@ impl Supervisor {
     }
 
     /// What only a restart clears, most urgent first.
+    #[inline]
     fn grave(&self, watched: &Watched) -> Option<Fault> {
         if self.overruns >= OVERRUN_TICKS {
             Some(Fault::Overrun)
@@ -153,6 +158,7 @@ impl Supervisor {
     }
 
     /// What else is wrong this tick, most urgent first.
+    #[inline]
     fn wrong(&self, inputs: &Inputs, watched: &Watched) -> Option<Fault> {
         // Written so that NaN is outside.
         let outside = |volts: f32, [low, high]: [f32; 2]| !(volts >= low && volts <= high);

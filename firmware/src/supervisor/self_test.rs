@@ -34,10 +34,12 @@ impl SelfTest {
     /// Everything good: what a bench or a simulated machine reports, which has none of these parts.
     pub const PASSED: Self = Self::all(Check::Passed);
 
+    #[inline]
     const fn all(check: Check) -> Self {
         Self { parameters: check, memory: check, converters: check, drivers: check, cut_off: check }
     }
 
+    #[inline]
     const fn steps(&self) -> [(Check, Fault); 5] {
         [
             (self.parameters, Fault::ParametersCorrupt),
@@ -49,11 +51,13 @@ impl SelfTest {
     }
 
     /// Every step has passed.
+    #[inline]
     pub fn passed(&self) -> bool {
         self.steps().iter().all(|(check, _)| *check == Check::Passed)
     }
 
     /// The first step that failed.
+    #[inline]
     pub fn fault(&self) -> Option<Fault> {
         self.steps().into_iter().find(|(check, _)| *check == Check::Failed).map(|(_, fault)| fault)
     }

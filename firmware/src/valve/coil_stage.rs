@@ -133,18 +133,20 @@ impl CoilStage {
 
     /// One tick, to be called with the gate closed too: speeds behind the gate; the supply (V); the
     /// coils' current codes.
+    #[inline]
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
         let now = Now { gate, supply: self.shared.gains.supply(supply_v), begun: Cell::new(false) };
         let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
-        let inputs = speeds.to_array().into_iter().zip(codes);
-        for (index, ((spool, (speed, codes)), (currents, duties))) in
+        let speeds = speeds.to_array();
+        let inputs = speeds.iter().zip(codes);
+        for (index, ((spool, (&speed, codes)), (currents, duties))) in
             self.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
         {
             if spool.sleeps(&self.shared, speed, *codes) {
                 continue;
             }
-            if let Some((side, fault)) = spool.tick(&self.shared, &now, speed, *codes, (currents, duties))
+            if let Some((side, fault)) = spool.tick::<true>(&self.shared, &now, speed, *codes, (currents, duties))
                 && driven.fault.is_none_or(|so_far| fault < so_far.fault)
             {
                 driven.fault = Some(FaultyCoil { spool: index, side, fault });

@@ -139,6 +139,7 @@ impl CoilWatch {
     }
 
     /// The coil will be given something.
+    #[inline]
     pub(super) fn wake(&mut self) {
         self.quiet = false;
     }
@@ -162,7 +163,7 @@ impl CoilWatch {
     }
 
     /// [`Self::judge`] for a coil that was given nothing. Not inlined: it is seldom off and not yet quiet.
-    #[inline(never)]
+    #[inline]
     pub(super) fn judge_idle(&mut self, limits: &WatchLimits, measured_a: f32) -> Option<CoilFault> {
         if self.quiet && measured_a <= limits.floor_a {
             return None;
@@ -176,7 +177,7 @@ impl CoilWatch {
     }
 
     /// How long each sign has been there. Not inlined: a healthy coil shows none for long.
-    #[inline(never)]
+    #[inline]
     fn count(&mut self, limits: &WatchLimits, given: &Given, measured_a: f32) -> Option<CoilFault> {
         let excess =
             measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a || measured_a >= limits.full_scale_a;

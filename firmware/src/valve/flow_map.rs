@@ -30,6 +30,7 @@ pub struct FlowParameters {
 
 impl FlowParameters {
     /// The straight line from the dead band to the full speed.
+    #[inline]
     pub fn linear(valve: &ValveDirection, coil: &Coil) -> Self {
         Self {
             min_current_a: valve.dead_band * coil.full_scale_a,
@@ -42,6 +43,7 @@ impl FlowParameters {
     }
 
     /// Its ends alone.
+    #[inline]
     pub fn direction(&self) -> ValveDirection {
         ValveDirection { dead_band: self.min_current_a / self.max_current_a, full_speed: self.full_speed }
     }
@@ -113,6 +115,7 @@ impl FlowMap {
     }
 
     /// Current (A) for a speed (m/s, a swing motor rad/s) in this direction; a speed the other way gives none. The curve is inverted by linear interpolation.
+    #[inline]
     pub fn current_a(&mut self, speed: f32) -> f32 {
         let threshold = if self.flowing { self.off_at } else { self.on_above };
         self.flowing = speed > threshold;
@@ -137,16 +140,19 @@ impl FlowMap {
     }
 
     /// Back before the jump: the solenoid is off.
+    #[inline]
     pub fn rest(&mut self) {
         self.flowing = false;
     }
 
     /// Before the jump.
+    #[inline]
     pub(super) fn rests(&self) -> bool {
         !self.flowing
     }
 
     /// The jump happens above this speed.
+    #[inline]
     pub(super) fn on_above(&self) -> f32 {
         self.on_above
     }

@@ -34,6 +34,7 @@ impl Side {
     }
 
     /// The other one.
+    #[inline]
     pub const fn opposite(self) -> Self {
         match self {
             Self::Extend => Self::Retract,

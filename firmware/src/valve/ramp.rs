@@ -43,6 +43,7 @@ impl Ramp {
     }
 
     /// One tick nearer to `target_a` (0, or at least `floor_a`). Nothing moves below `floor_a`, so the way between it and zero is jumped.
+    #[inline]
     pub fn step(&mut self, target_a: f32, floor_a: f32) -> f32 {
         if target_a <= 0.0 {
             return self.fall(floor_a);
@@ -66,6 +67,7 @@ impl Ramp {
     }
 
     /// One tick nearer to zero.
+    #[inline]
     fn fall(&mut self, floor_a: f32) -> f32 {
         let next = self.current_a - self.down_a;
         self.current_a = if next < floor_a || next < 0.0 { 0.0 } else { next };
@@ -73,6 +75,7 @@ impl Ramp {
     }
 
     /// Back to zero at once.
+    #[inline]
     pub fn reset(&mut self) {
         self.current_a = 0.0;
     }

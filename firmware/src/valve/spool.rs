@@ -127,9 +127,9 @@ impl Spool {
     }
 
     /// One tick: the most urgent fault from the currents' codes; current and duty for this speed, m/s, of the one solenoid that is on
-    /// into `outputs`, which are zero. Not inlined: the loop around it would take the registers.
+    /// into `outputs`, which are zero. Not inlined: the loop around it would take the registers. Generic only to be compiled with the tick.
     #[inline(never)]
-    pub(super) fn tick(
+    pub(super) fn tick<const IN_TICK: bool>(
         &mut self,
         shared: &Shared,
         now: &Now,
@@ -169,7 +169,7 @@ impl Spool {
     }
 
     /// [`Self::give`] to a solenoid that was off.
-    #[inline(never)]
+    #[inline]
     fn start(
         &mut self,
         shared: &Shared,
@@ -203,6 +203,7 @@ impl Spool {
     }
 
     /// Neither solenoid was given anything.
+    #[inline]
     fn judge_off(&mut self, shared: &Shared, codes: Solenoids<u16>) -> Option<(Side, CoilFault)> {
         let ([watch, _], [code, _]) = (&mut self.watches, codes);
         let fault = watch.judge_idle(&shared.limits, shared.measured_a(code));
@@ -210,7 +211,7 @@ impl Spool {
     }
 
     /// The other solenoid, which was given nothing, and both: the most urgent fault. Not inlined: mostly the other one is off.
-    #[inline(never)]
+    #[inline]
     fn judge_other(
         &mut self,
         shared: &Shared,
@@ -239,6 +240,7 @@ impl Spool {
     }
 
     /// The gate is closed.
+    #[inline]
     fn close(&mut self) {
         self.interlock.release();
         for direction in &mut self.directions {
@@ -250,7 +252,7 @@ impl Spool {
 
     /// The solenoid that is on, and its current, when it is not the one that was asked for and is on already. Not inlined: it is
     /// for starts, ends and changes of direction.
-    #[inline(never)]
+    #[inline]
     fn turn(&mut self, shared: &Shared, now: &Now, speed: f32, codes: Solenoids<u16>) -> Option<(Side, f32)> {
         if now.gate == Gate::Closed {
             self.close();
@@ -286,6 +288,7 @@ impl Spool {
     }
 
     /// Both solenoids are off.
+    #[inline]
     fn rest(&mut self) {
         self.given = Given::NOTHING;
         let flows = self.directions.iter().all(|direction| direction.flow.rests());

@@ -16,7 +16,7 @@ use crate::place::Image;
 /// Arguments of `hil image`.
 #[derive(Debug, Args)]
 pub struct ImageArgs {
-    /// The image: a binary of package firmware that runs the application
+    /// The image: a binary of package images
     #[arg(default_value = "ecu-stm32f405")]
     name: String,
     /// How many of the largest functions to list
@@ -110,7 +110,15 @@ const PLACES: [&str; 3] = ["tick", "start", "handlers"];
 
 /// The crate a function belongs to, by its name.
 fn owner(name: &str) -> &str {
-    let known = ["kinematics_core", "firmware", "ecu_stm32f405", "ecu_emulated", "stm32f4xx_hal", "compiler_builtins"];
+    let known = [
+        "kinematics_core",
+        "firmware",
+        "control_tick",
+        "ecu_stm32f405",
+        "ecu_emulated",
+        "stm32f4xx_hal",
+        "compiler_builtins",
+    ];
     let before = |owner: &&str| name.find(*owner);
     let first = known.into_iter().filter(|owner| before(owner).is_some()).min_by_key(before);
     first

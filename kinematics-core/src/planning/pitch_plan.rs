@@ -376,7 +376,9 @@ pub fn plan_path<T: Real, const K: usize>(
     effort: &Effort<T>,
     allowed: impl Fn(&Joints<T>) -> bool,
 ) -> Result<PitchPlan<T, K>, PlanError> {
-    let mut planner = PitchPlanner::new(machine, request, *effort, &allowed)?;
+    // By reference from where it was made: moved out, the stack may hold it twice.
+    let mut planner = PitchPlanner::new(machine, request, *effort, &allowed);
+    let planner = planner.as_mut().map_err(|error| *error)?;
     let mut found = None;
     for _ in 0..PitchPlanner::<T, K>::STEPS {
         found = planner.step(machine, &allowed)?;

@@ -1,10 +1,19 @@
 //! J1939's own messages: diagnostics, transport, addresses.
 
 use crate::can::message::{Header, Message, Rate, Sender};
-use crate::can::signal::Signal;
+use crate::can::signal::{Signal, words};
 
 const fn network(name: &'static str, pgn: u32, priority: u8, rate: Rate, about: &'static str) -> Header {
-    Header { name, about, pgn, priority, sender: Sender::Controller, rate, bytes: 8, protected: false }
+    Header {
+        name: words(name),
+        about: words(about),
+        pgn,
+        priority,
+        sender: Sender::Controller,
+        rate,
+        bytes: 8,
+        protected: false,
+    }
 }
 
 /// Ticks between two messages of the diagnostics at least, and between two packets of a broadcast (J1939-21: 50 to 200 ms).

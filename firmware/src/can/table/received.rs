@@ -2,7 +2,7 @@
 
 use crate::can::message::{Header, Message, Rate, Sender};
 use crate::can::protect::{COUNTER, CRC};
-use crate::can::signal::{Scale, Signal};
+use crate::can::signal::{Scale, Signal, words};
 
 /// Without a new message for so long a received value is stale, ms.
 pub const TIMEOUT_MS: u16 = 100;
@@ -12,7 +12,16 @@ pub const PERIOD_MS: u16 = 20;
 
 const fn command(name: &'static str, pgn: u32, about: &'static str) -> Header {
     let rate = Rate::Every { ms: PERIOD_MS, phase_ms: 0 };
-    Header { name, about, pgn, priority: 3, sender: Sender::Operator, rate, bytes: 8, protected: true }
+    Header {
+        name: words(name),
+        about: words(about),
+        pgn,
+        priority: 3,
+        sender: Sender::Operator,
+        rate,
+        bytes: 8,
+        protected: true,
+    }
 }
 
 /// States of a valve command: the lower codes of ISO 11783-7's auxiliary valve command (SPN 1920 and its like).
@@ -122,8 +131,10 @@ const MERIT: [(u32, &str); 2] = [(0, "fully_functional"), (1, "degraded")];
 pub static SLOPE: Message<7> = Message {
     header: Header {
         name: "SlopeSensor2",
-        about: "Chassis roll and pitch: J1939-71 Slope Sensor Information 2 (SPN 4976 to 4982), signs of SAE J670: roll positive to the \
+        about: words(
+            "Chassis roll and pitch: J1939-71 Slope Sensor Information 2 (SPN 4976 to 4982), signs of SAE J670: roll positive to the \
                 right, pitch positive nose up.",
+        ),
         pgn: 61481,
         priority: 3,
         sender: Sender::SlopeSensor,

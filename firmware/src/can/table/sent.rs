@@ -3,13 +3,22 @@
 use crate::can::message::{Header, Message, Rate, Sender};
 use crate::can::protect::{COUNTER, CRC};
 use crate::can::receive::Validity;
-use crate::can::signal::{Scale, Signal};
+use crate::can::signal::{Scale, Signal, words};
 use crate::fault::{Fault, State};
 
 pub(super) const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'static str) -> Header {
     let [ms, phase_ms] = every;
     let rate = Rate::Every { ms, phase_ms };
-    Header { name, about, pgn, priority: 6, sender: Sender::Controller, rate, bytes: 8, protected: false }
+    Header {
+        name: words(name),
+        about: words(about),
+        pgn,
+        priority: 6,
+        sender: Sender::Controller,
+        rate,
+        bytes: 8,
+        protected: false,
+    }
 }
 
 /// The supervisor's states by their codes.

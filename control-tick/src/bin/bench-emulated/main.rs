@@ -8,7 +8,7 @@ mod coils;
 #[cfg(target_os = "none")]
 mod diagnosis;
 #[cfg(target_os = "none")]
-#[path = "../../emulated/mod.rs"]
+#[path = "../../../../images/src/emulated/mod.rs"]
 mod emulated;
 
 #[cfg(target_os = "none")]

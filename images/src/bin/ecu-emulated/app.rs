@@ -104,7 +104,7 @@ mod app {
         board.connect(&wires);
         let inputs = controller.read(board.parts(), wires.overrun);
         let before = stopwatch.now_ns();
-        let outputs = controller.tick(&inputs);
+        let outputs = control_tick::tick(controller, &inputs);
         let after = stopwatch.now_ns();
         controller.write(board.parts(), &outputs);
 

@@ -9,14 +9,15 @@ fn main() {
         return;
     }
     let manifest = env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR");
-    let root = Path::new(&manifest).parent().expect("firmware stands in the workspace");
+    let root = Path::new(&manifest).parent().expect("the package stands in the workspace");
     println!("cargo:rustc-link-search={}", root.display());
     // memory.x is found through the search path; link.x comes from cortex-m-rt.
     for argument in ["-Tlink.x", "--nmagic"] {
         println!("cargo:rustc-link-arg-bins={argument}");
     }
     // Where defmt's strings go; only these images log.
-    for image in ["ecu-stm32f405", "faults-emulated"] {
+    let logging: &[&str] = if env!("CARGO_PKG_NAME") == "images" { &["ecu-stm32f405", "faults-emulated"] } else { &[] };
+    for image in logging {
         println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
     }
 }

@@ -104,10 +104,13 @@ mod app {
 
     #[task(binds = TIM2, local = [board, controller, timer, late: bool = false])]
     fn tick(cx: tick::Context) {
-        cx.local.timer.clear_flags(Flag::Update);
-        let outputs = cx.local.controller.cycle(cx.local.board, *cx.local.late);
+        let tick::LocalResources { board, controller, timer, late, .. } = cx.local;
+        timer.clear_flags(Flag::Update);
+        let inputs = controller.read(board, *late);
+        let outputs = control_tick::tick(controller, &inputs);
+        controller.write(board, &outputs);
         log::leave(&outputs);
         // The next period has begun already: this one ended too late, and the next tick says so.
-        *cx.local.late = cx.local.timer.flags().contains(Flag::Update);
+        *late = timer.flags().contains(Flag::Update);
     }
 }
