@@ -267,8 +267,9 @@ fn a_spool_stuck_open_is_named_when_the_longest_run_on_is_over() {
                 bench.tick(own, if (begin..BROKEN).contains(&now) { speed } else { 0.0 })
             });
             assert_eq!(fault, Fault::Uncommanded(bench.cylinder()));
-            // The envelope: from 264 to 352 ms after the release on 1.25 times what was measured, down over 2 s; and 0.03 m/s.
-            let falls = |after_ms: f64| 1.25 * speed * (1.0 - (after_ms - 264.0) / 2000.0) + 0.03;
+            // The envelope: from 264 to 352 ms after the release on 1.25 times the fastest that was measured (four standard deviations of
+            // 2.6 mm/s above the speed), down over 2 s; and 0.03 m/s.
+            let falls = |after_ms: f64| 1.25 * (speed + 0.01) * (1.0 - (after_ms - 264.0) / 2000.0) + 0.03;
             let observable = BROKEN + (264..).find(|ms| falls(f64::from(*ms)) < speed).unwrap();
             // The model's window may be 88 ms longer than the dead time.
             assert!(at >= observable);

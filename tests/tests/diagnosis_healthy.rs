@@ -150,3 +150,34 @@ fn the_measured_speed_follows_and_its_noise_is_a_tenth_of_the_margin() {
     println!("measured speed: {:.1} mm/s RMS at {:.1} mm of noise", squares.sqrt() * 1e3, NOISE_M * 1e3);
     assert!(squares.sqrt() < 0.003);
 }
+
+/// The first fault of a cylinder at this speed (m/s over s), sent 0.3 m/s from 1 to 2 s if `driven`; it begins at 2.1 s.
+fn swinging(driven: bool, speed_mps: impl Fn(f64) -> f64) -> Option<(u32, Fault)> {
+    let mut noise = Noise::new(11);
+    let mut diagnosis = diagnosis();
+    let mut at = 0.2;
+    (0..12 * TICKS_PER_S).find_map(|now| {
+        let time_s = f64::from(now) / f64::from(TICKS_PER_S);
+        let moved_mps = match time_s {
+            t if t >= 2.1 => speed_mps(t - 2.1),
+            t if t >= 1.1 && driven => 0.3,
+            _ => 0.0,
+        };
+        at += moved_mps / f64::from(TICKS_PER_S);
+        let sent = if driven && (1.0..2.0).contains(&time_s) { 0.3 } else { 0.0 };
+        let codes = [0.6, at, 0.6, 0.6].map(|at| code(at, &mut noise));
+        tick(&mut diagnosis, &codes, &NO_PRESSURES, [0.0, sent, 0.0, 0.0]).map(|fault| (now, fault))
+    })
+}
+
+#[test]
+fn a_released_mass_may_swing_on_for_ten_seconds_one_that_stood_may_not_and_none_may_drift() {
+    let swing = |t: f64| 0.2 * (-0.15 * t).exp() * (core::f64::consts::TAU * 2.5 * t).cos();
+    assert_eq!(swinging(true, swing), None);
+    let (at, fault) = swinging(false, swing).expect("named");
+    assert!(fault == Fault::Uncommanded(kinematics_core::Cylinder::Boom) && at < 2300, "{at} {fault:?}");
+    // While it drifts it does not swing back: the memory of its swing fades.
+    let drift = |t: f64| if t < 3.0 { swing(t) } else { 0.06 };
+    let (at, fault) = swinging(true, drift).expect("named");
+    assert!(fault == Fault::Uncommanded(kinematics_core::Cylinder::Boom) && at < 7000, "{at} {fault:?}");
+}

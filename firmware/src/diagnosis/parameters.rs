@@ -57,7 +57,8 @@ pub struct DiagnosisParameters {
     pub overshoot: f32,
     /// Share of a released speed that may ring back.
     pub ring: f32,
-    /// Share of its full speed at which an actuator may shake while the others move at theirs.
+    /// Share of its full speed at which an actuator may shake while the others move at theirs: a boom that falls faster than its full speed
+    /// into its cushion throws the arm forwards.
     pub coupling: f32,
     /// Share of a standing command at which an actuator may bounce back off soil or a stop.
     pub rebound: f32,
@@ -77,7 +78,7 @@ impl DiagnosisParameters {
             run_on_s: 2.0,
             overshoot: 1.5,
             ring: 1.0,
-            coupling: 1.5,
+            coupling: 2.0,
             rebound: 0.5,
             supplied_pa: 2e6,
             stalled_pa: 15e6,

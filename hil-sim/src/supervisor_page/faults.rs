@@ -34,13 +34,16 @@ motion. The tests named below print what they measured, and the wait before it.
 |---|---|
 | sensors and motion | `cargo test -p cross-tests --test diagnosis_faults -- --nocapture` |
 | no false trip of healthy actuators | `cargo test -p cross-tests --test diagnosis_healthy -- --nocapture` |
+| no false trip of the healthy hydraulic machine | `cargo test -p cross-tests --test soak`, for hours `cargo hil soak --hours 100 --shard 0/20` |
 | coils | `cargo hil coil` |
 | every state with every input | `cargo test -p cross-tests --test supervisor_machine` |
 
 ## The delay model
 
-A healthy actuator starts 0 to 250 ms after its command, follows it with a lag of up to 0.1 s, overshoots by up to three quarters, and
-runs on for up to 2 s after that dead time; of a released speed three quarters may ring back, of a standing one half may bounce back off soil.
+A healthy actuator starts 0 to 250 ms after its command, follows it with a lag of up to 0.1 s, overshoots by up to one and a half times (a
+weight drives the oil faster than the pump), and runs on for up to 2 s after that dead time, from at most 1.25 times the fastest speed of the last
+second; a released speed may ring back, of a standing one half may bounce back off soil. A mass on closed oil swings for seconds: released, it
+may swing back at 1.25 times what it was seen to swing out, a memory that fades within a second.
 Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 56 ms is motion *uncommanded* or *against the command*. The slowest
 healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 96 ms and 5 mm of predicted
 travel is *stuck*, a living sensor's noise never stands still so long; one that keeps its noise is stuck when the driven side's pressure is
