@@ -52,11 +52,14 @@ struct Channel {
     creep: Creep,
     /// What has been lacking, over the feedback's time.
     lacked: f32,
+    /// One over the lag that all but stops the clock.
+    per_lag: f32,
 }
 
 impl Channel {
-    const NEW: Self =
-        Self { bias: [0.0; 2], given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST, lacked: 0.0 };
+    const fn new(bias: [f32; 2], per_lag: f32) -> Self {
+        Self { bias, given: 0.0, given_then: 0.0, awake: false, creep: Creep::REST, lacked: 0.0, per_lag }
+    }
 }
 
 /// The law's state. Swing, boom, arm, bucket in every array.
@@ -78,8 +81,6 @@ pub(super) struct Law {
     channels: [Channel; 4],
     /// Share of what is lacking now.
     feedback_share: f32,
-    /// One over the lags that all but stop the clock.
-    per_lag: [f32; 4],
     /// The largest lag in the direction of motion, as a share of its own.
     lag: f32,
 }
@@ -94,6 +95,7 @@ impl Law {
     pub(super) fn new(motion: &MotionParameters, p: &LawParameters) -> Self {
         let cylinder = motion.following_error_m;
         let per_lag = 1.0 / p.lag_m;
+        let of_swing = 1.0 / p.swing_following_error_rad * (cylinder / p.lag_m);
         Self {
             feed_forward: p.feed_forward,
             gain_per_s: motion.gain_per_s,
@@ -107,14 +109,14 @@ impl Law {
             preview_ticks: preview_ticks(motion),
             quiet_until: 0,
             tick: 0,
-            channels: [Channel::NEW; 4],
+            channels: [of_swing, per_lag, per_lag, per_lag].map(|per_lag| Channel::new([0.0; 2], per_lag)),
             feedback_share: if p.feedback_lag_s > TICK_S { TICK_S / p.feedback_lag_s } else { 1.0 },
-            per_lag: [1.0 / p.swing_following_error_rad * (cylinder / p.lag_m), per_lag, per_lag, per_lag],
             lag: 0.0,
         }
     }
 
     /// The pace at which whatever lags can catch up: a valve that gets too little oil is seen in no other way.
+    #[inline(always)]
     pub(super) fn pace(&self) -> f32 {
         limited(1.0 + PATIENCE - self.lag, SLOWEST, 1.0)
     }
@@ -130,7 +132,7 @@ impl Law {
         self.lag = 0.0;
         self.quiet_until = self.preview_ticks.saturating_add(quiet);
         for channel in &mut self.channels {
-            *channel = Channel { bias: channel.bias, ..Channel::NEW };
+            *channel = Channel::new(channel.bias, channel.per_lag);
         }
     }
 
@@ -190,9 +192,7 @@ impl Law {
 
     #[inline(always)]
     fn speed(&mut self, index: usize, feed: f32, error: f32) -> f32 {
-        let (Some(channel), Some(per_lag)) = (self.channels.get_mut(index), self.per_lag.get(index)) else {
-            return 0.0;
-        };
+        let Some(channel) = self.channels.get_mut(index) else { return 0.0 };
         let lacking = error - (channel.given - channel.given_then);
         if feed == 0.0 {
             let zone = if channel.awake { self.rest_zone } else { LEAVES_REST * self.rest_zone };
@@ -208,7 +208,7 @@ impl Law {
         let lacking = channel.lacked;
         let correction = within(self.gain_per_s * lacking, self.correction_limit);
         let asked = feed + correction;
-        let lag = if feed < 0.0 { -lacking } else { lacking } * per_lag;
+        let lag = if feed < 0.0 { -lacking } else { lacking } * channel.per_lag;
         if feed != 0.0 && lag > self.lag {
             self.lag = lag;
         }

@@ -78,6 +78,7 @@ impl Overrun {
     }
 
     /// What the swing's valve is told, so that the swing goes at `speed` where `feed_forward` is asked of it, rad/s.
+    #[inline(always)]
     pub(super) fn told_swing(&mut self, feed_forward: f32, speed: f32) -> f32 {
         let swing = &mut self.swing;
         let slower = if feed_forward > 0.0 || swing.speed > 0.0 {
