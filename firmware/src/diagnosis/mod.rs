@@ -117,6 +117,7 @@ impl Diagnosis {
 
     /// One tick in service, in which actuators move without speeds being asked for: only a code that jumps is a fault, and the watch
     /// over motion begins afresh when service ends.
+    #[inline]
     pub fn in_service(&mut self, codes: &[u16; 4]) -> Option<Fault> {
         let begun = core::mem::replace(&mut self.begun, true);
         for (channel, code) in self.channels.iter_mut().zip(codes).filter(|_| begun) {
@@ -148,6 +149,7 @@ impl Diagnosis {
     }
 
     /// What went to the valves in the tick before.
+    #[inline]
     pub fn last_sent(&self) -> Speeds {
         Speeds::from_array(self.sent)
     }

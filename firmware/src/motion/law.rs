@@ -122,6 +122,7 @@ impl Law {
     }
 
     /// How far ahead modes have to look, ticks.
+    #[inline]
     pub(super) fn preview_ticks(&self) -> u32 {
         self.preview_ticks
     }

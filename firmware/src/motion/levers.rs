@@ -30,6 +30,7 @@ impl Levers {
     }
 
     /// The arm's of them alone.
+    #[inline]
     pub(super) fn arm_mps(&self, [_, _, arm, _]: [i16; 4]) -> f32 {
         let [_, _, full, _] = self.full_speeds;
         self.speed(arm, full)

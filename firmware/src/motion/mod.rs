@@ -57,6 +57,7 @@ pub struct Wanted {
 
 impl Wanted {
     /// To stand still at these lengths.
+    #[inline]
     pub(crate) const fn hold(lengths: &Cylinders<f32>) -> Self {
         Self { speeds: Speeds::ZERO, reference: *lengths, dig_tick: 0 }
     }
@@ -180,6 +181,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`Fault::NotConfigured`], [`Fault::NotAtStart`], [`Fault::FollowingError`], [`Fault::Trajectory`].
+    #[inline]
     pub(crate) fn follow(
         &mut self,
         (machine, followers): (&Machine<f32>, &mut Followers),
