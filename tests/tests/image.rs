@@ -73,7 +73,7 @@ fn the_control_task_reaches_no_panic_and_calls_nothing_unknown() {
         let tick = graph.reached(graph.named(TICK).expect("the tick"));
         println!("{name}: {} functions from the tick", tick.len());
         assert!(tick.len() > 40, "{name}: the graph misses calls");
-        for wanted in ["MoveFollower::follow", "Reach<T,_>::tick", "memcpy"] {
+        for wanted in ["Ecu<F>::sense_and_follow", "Spool::tick", "Reach<T,_>::tick", "memcpy"] {
             assert!(tick.values().any(|function| function.name.contains(wanted)), "{name}: {wanted}");
         }
         for function in tick.values() {
@@ -105,7 +105,9 @@ fn the_stack_has_a_bound_and_room_to_spare() {
             deepest.bytes
         };
         let (tick, start) = (deepest(TICK) + INTERRUPT_FRAME_BYTES, deepest("main"));
-        assert!(tick <= 4 * 1024, "{name}: {tick} bytes for the tick");
+        // The emulated image's exchange with the harness lies on it as well.
+        let most = if name == "ecu-stm32f405" { 4096 } else { 4608 };
+        assert!(tick <= most, "{name}: {tick} bytes for the tick");
         // What the idle loop runs beside the ticks; only the board's image has a store for it.
         let errand = if name == "ecu-stm32f405" { deepest(ERRAND) } else { 0 };
         assert!(errand <= start, "the idle loop is part of what `main` reaches");

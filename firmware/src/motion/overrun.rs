@@ -16,6 +16,9 @@ use crate::law::LawParameters;
 /// Loads are taken as their mean over about this time, so that ringing does not open and close the spool, s.
 const MEAN_S: f32 = 0.2;
 
+/// A tick weighs one load: each is weighed every so many.
+const LOADS: u32 = 3;
+
 /// The same of braking, s.
 const BRAKING_MEAN_S: f32 = 0.1;
 
@@ -26,6 +29,33 @@ struct Load {
     overrun_n: [f32; 2],
     /// What it pushes with, N: against a load that shortens it positive. `None` while a pressure is unknown.
     push_n: Option<f32>,
+    /// What the valve is told of a speed, extending and retracting: 1 but where the load runs ahead.
+    told: [f32; 2],
+}
+
+impl Load {
+    const UNKNOWN: (Option<f32>, [f32; 2]) = (None, [1.0; 2]);
+
+    #[inline(always)]
+    fn weigh(&mut self, sides: &[Option<f32>; 2]) {
+        let [Some(head), Some(rod)] = *sides else {
+            (self.push_n, self.told) = Self::UNKNOWN;
+            return;
+        };
+        let [head_m2, rod_m2] = self.areas_m2;
+        let push = head * head_m2 - rod * rod_m2;
+        let mean = self.push_n.unwrap_or(push);
+        let push = mean + (push - mean) * (LOADS as f32 * TICK_S / MEAN_S);
+        let [extend, retract] = self.overrun_n;
+        self.push_n = Some(push);
+        self.told = if push < -extend {
+            [Real::sqrt(extend / -push), 1.0]
+        } else if push > retract {
+            [1.0, Real::sqrt(retract / push)]
+        } else {
+            [1.0; 2]
+        };
+    }
 }
 
 /// The swing.
@@ -43,37 +73,34 @@ struct Inertia {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Overrun {
     swing: Inertia,
-    loads: [Load; 3],
+    loads: [Load; LOADS as usize],
+    /// The load weighed last.
+    turn: u32,
 }
 
 impl Overrun {
     pub(super) fn new(p: &LawParameters) -> Self {
         let mut overruns = p.overrun_n.into_iter();
         // As many overruns as areas.
-        let load = |areas_m2| Load { areas_m2, overrun_n: overruns.next().unwrap_or_default(), push_n: None };
+        let load =
+            |areas_m2| Load { areas_m2, overrun_n: overruns.next().unwrap_or_default(), push_n: None, told: [1.0; 2] };
         let swing = Inertia { overrun: p.swing_overrun_radps2, speed: 0.0, braking: 0.0 };
-        Self { swing, loads: p.areas_m2.map(load) }
+        Self { swing, loads: p.areas_m2.map(load), turn: 0 }
     }
 
     /// Nothing is known yet.
     pub(super) fn reset(&mut self) {
         (self.swing.speed, self.swing.braking) = (0.0, 0.0);
-        self.loads.iter_mut().for_each(|load| load.push_n = None);
+        self.loads.iter_mut().for_each(|load| (load.push_n, load.told) = Load::UNKNOWN);
     }
 
-    /// One tick's pressures.
+    /// One tick's pressures, of which those of one cylinder are looked at.
     #[inline(always)]
     pub(super) fn weigh(&mut self, pressures_pa: &Pressures) {
-        for (load, sides) in self.loads.iter_mut().zip(pressures_pa) {
-            let [head_m2, rod_m2] = load.areas_m2;
-            load.push_n = match sides {
-                [Some(head), Some(rod)] => {
-                    let push = *head * head_m2 - *rod * rod_m2;
-                    let mean = load.push_n.unwrap_or(push);
-                    Some(mean + (push - mean) * (TICK_S / MEAN_S))
-                }
-                _ => None,
-            };
+        self.turn = if self.turn + 1 < LOADS { self.turn + 1 } else { 0 };
+        let turn = self.turn as usize;
+        if let (Some(load), Some(sides)) = (self.loads.get_mut(turn), pressures_pa.get(turn)) {
+            load.weigh(sides);
         }
     }
 
@@ -98,16 +125,10 @@ impl Overrun {
 
     /// What the valves are told, so that boom, arm and bucket go at these speeds.
     #[inline(always)]
-    pub(super) fn told(&self, mut speeds: [f32; 3]) -> [f32; 3] {
-        for (speed, load) in speeds.iter_mut().zip(&self.loads) {
-            let Some(push) = load.push_n else { continue };
-            let [extend, retract] = load.overrun_n;
-            let (pulls, overrun) = if *speed > 0.0 { (-push, extend) } else { (push, retract) };
-            if pulls > overrun {
-                *speed *= Real::sqrt(overrun / pulls);
-            }
-        }
-        speeds
+    pub(super) fn told(&self, [boom, arm, bucket]: [f32; 3]) -> [f32; 3] {
+        let [of_boom, of_arm, of_bucket] = &self.loads;
+        let told = |speed: f32, load: &Load| speed * if speed > 0.0 { load.told[0] } else { load.told[1] };
+        [told(boom, of_boom), told(arm, of_arm), told(bucket, of_bucket)]
     }
 }
 
@@ -117,10 +138,10 @@ mod tests {
 
     /// A cylinder that extending runs ahead above 1 kN and retracting above 4 kN, with these sides.
     fn told(head_pa: Option<f32>, rod_pa: Option<f32>, speed: f32) -> f32 {
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None };
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, told: [1.0; 2] };
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
-        let mut overrun = Overrun { swing, loads: [load; 3] };
-        overrun.weigh(&[[head_pa, rod_pa]; 3]);
+        let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
+        (0..LOADS).for_each(|_| overrun.weigh(&[[head_pa, rod_pa]; 3]));
         let [first, second, third] = overrun.told([speed; 3]);
         assert_eq!([first, second], [third; 2]);
         first
@@ -148,8 +169,8 @@ mod tests {
     #[test]
     fn a_swing_runs_ahead_while_it_brakes_and_only_then() {
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None };
-        let mut overrun = Overrun { swing, loads: [load; 3] };
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None, told: [1.0; 2] };
+        let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
         for sign in [1.0, -1.0] {
             overrun.reset();
             let mut speed = 0.0;

@@ -176,7 +176,7 @@ impl CoilWatch {
         fault
     }
 
-    /// How long each sign has been there. Not inlined: a healthy coil shows none for long.
+    /// How long each sign has been there.
     #[inline]
     fn count(&mut self, limits: &WatchLimits, given: &Given, measured_a: f32) -> Option<CoilFault> {
         let excess =

@@ -216,7 +216,7 @@ impl Spool {
         self.judge_other(shared, codes, Side::Extend, fault)
     }
 
-    /// The other solenoid, which was given nothing, and both: the most urgent fault. Not inlined: mostly the other one is off.
+    /// The other solenoid, which was given nothing, and both: the most urgent fault.
     #[inline]
     fn judge_other(
         &mut self,
@@ -257,8 +257,7 @@ impl Spool {
         self.rest();
     }
 
-    /// The solenoid that is on, and its current, when it is not the one that was asked for and is on already. Not inlined: it is
-    /// for starts, ends and changes of direction.
+    /// The solenoid that is on, and its current, when it is not the one that was asked for and is on already.
     #[inline]
     fn turn(&mut self, shared: &Shared, now: &Now, speed: f32, codes: Solenoids<u16>) -> Option<(Side, f32)> {
         if now.gate == Gate::Closed {
