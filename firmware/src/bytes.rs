@@ -29,6 +29,8 @@ impl<'a> Writer<'a> {
         self.float(r.sin);
     }
 
+    // Inlined: compiled for the smallest size, three calls of one function would go through a register.
+    #[inline(always)]
     pub(crate) fn cylinders(&mut self, c: Cylinders<f32>) {
         self.float(c.boom);
         self.float(c.arm);

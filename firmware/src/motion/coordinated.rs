@@ -35,6 +35,24 @@ pub(super) struct Coordination {
     pub(super) speeds: [f32; 4],
 }
 
+/// Where a cylinder of this length and speed will stand when the preview and half its stopping time have passed, between its ends; the
+/// longest stopping time. Inlined: compiled for size, three calls would go through a register, and the image must show where calls lead.
+#[inline(always)]
+fn stands(
+    (length, speed): (f32, f32),
+    preview_s: f32,
+    stopping: f32,
+    [longest, shortest]: [f32; 2],
+    longest_s: &mut f32,
+) -> f32 {
+    let size = if speed < 0.0 { -speed } else { speed };
+    let stopping_s = 2.0 * stopping * size;
+    if stopping_s > *longest_s {
+        *longest_s = stopping_s;
+    }
+    limited(length + speed * (preview_s + stopping * size), shortest, longest)
+}
+
 impl Coordination {
     pub(super) fn new(law: Law, limits: Limits, p: &LawParameters) -> Self {
         let [_, boom, arm, bucket] = p.acceleration;
@@ -62,24 +80,16 @@ impl Coordination {
     }
 
     /// Where the cylinders will stand when what is under way and slowing down is done; the law is begun from there.
+    #[inline]
     pub(super) fn begin(&mut self, lengths: &Cylinders<f32>, preview_s: f32) -> Cylinders<f32> {
         let [_, boom, arm, bucket] = self.speeds;
         let mut longest_s = 0.0;
         let [of_boom, of_arm, of_bucket] = self.stopping;
-        let ends = self.limits.ends_m();
-        let mut stand = |length: f32, speed: f32, stopping: f32, [longest, shortest]: [f32; 2]| {
-            let size = if speed < 0.0 { -speed } else { speed };
-            let stopping_s = 2.0 * stopping * size;
-            if stopping_s > longest_s {
-                longest_s = stopping_s;
-            }
-            limited(length + speed * (preview_s + stopping * size), shortest, longest)
-        };
-        let [boom_ends, arm_ends, bucket_ends] = ends;
+        let [boom_ends, arm_ends, bucket_ends] = self.limits.ends_m();
         let start = Cylinders {
-            boom: stand(lengths.boom, boom, of_boom, boom_ends),
-            arm: stand(lengths.arm, arm, of_arm, arm_ends),
-            bucket: stand(lengths.bucket, bucket, of_bucket, bucket_ends),
+            boom: stands((lengths.boom, boom), preview_s, of_boom, boom_ends, &mut longest_s),
+            arm: stands((lengths.arm, arm), preview_s, of_arm, arm_ends, &mut longest_s),
+            bucket: stands((lengths.bucket, bucket), preview_s, of_bucket, bucket_ends, &mut longest_s),
         };
         self.law.begin((longest_s * crate::TICKS_PER_S as f32) as u32);
         start

@@ -116,6 +116,13 @@ impl<CS: OutputPin<Error = Infallible>> SpiDevice for Converter<CS> {
     }
 }
 
+/// As many as both have: compiled for size, `copy_from_slice` would keep its panic for unlike lengths.
+fn copy(to: &mut [u8], from: &[u8]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
 fn perform(bus: &mut DmaSpi, operation: &mut Operation<'_, u8>) -> Result<(), BusError> {
     let (read, write): (&mut [u8], &[u8]) = match operation {
         Operation::Read(read) => (read, &[]),
@@ -127,19 +134,19 @@ fn perform(bus: &mut DmaSpi, operation: &mut Operation<'_, u8>) -> Result<(), Bu
     };
     let count = core::cmp::max(read.len(), write.len());
     bus.sent = [0; FRAME_BYTES];
-    bus.sent.get_mut(..write.len()).ok_or(BusError::TooLong)?.copy_from_slice(write);
+    copy(bus.sent.get_mut(..write.len()).ok_or(BusError::TooLong)?, write);
     if count > FRAME_BYTES {
         return Err(BusError::TooLong);
     }
     bus.frame(count)?;
     let received = bus.received.get(..read.len()).ok_or(BusError::TooLong)?;
-    read.copy_from_slice(received);
+    copy(read, received);
     Ok(())
 }
 
 fn in_place(bus: &mut DmaSpi, both: &mut [u8]) -> Result<(), BusError> {
-    bus.sent.get_mut(..both.len()).ok_or(BusError::TooLong)?.copy_from_slice(both);
+    copy(bus.sent.get_mut(..both.len()).ok_or(BusError::TooLong)?, both);
     bus.frame(both.len())?;
-    both.copy_from_slice(bus.received.get(..both.len()).ok_or(BusError::TooLong)?);
+    copy(both, bus.received.get(..both.len()).ok_or(BusError::TooLong)?);
     Ok(())
 }
