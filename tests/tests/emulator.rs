@@ -11,13 +11,13 @@ use hil_sim::scenario::Scenario;
 /// What a tick may execute with everything on: coil currents, diagnosis, supervisor, fence. A tick of 1 ms has 168,000 cycles.
 const LONGEST_TICK: u32 = 4_000;
 
-/// Three kinds of scenario take more (docs/cost.md): steps past obstacles, all four spools led, and loads weighed on hydraulics.
+/// Some scenarios take more (docs/cost.md): steps past obstacles, a fence, all four spools led, and loads weighed on hydraulics.
 fn longest_tick(scenario: &Scenario) -> u32 {
     let p = &scenario.parameters;
     match (p.motion.law.is_some(), scenario.hydraulic.is_some()) {
         (true, true) => 4_450,
         (true, false) => 4_200,
-        (false, _) if p.reach.is_some() => 4_200,
+        (false, _) if p.reach.is_some() || p.fence.is_some() => 4_200,
         (false, _) => LONGEST_TICK,
     }
 }
