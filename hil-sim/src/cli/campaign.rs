@@ -1,18 +1,30 @@
 //! What commands of many runs have in common: their part of the runs, the progress, the exit status.
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 
+use clap::Args;
 use serde::Serialize;
 
 use super::print_with_json;
 use super::progress::Progress;
 use crate::shard::Shard;
 
+/// Which part of the runs, and where the outcome goes.
+#[derive(Debug, Args)]
+pub(super) struct PartArgs {
+    /// Only every n-th case, the i-th first: 0/1 is all
+    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
+    pub(super) shard: Shard,
+    /// Write the outcome as JSON to a file, or to standard output with `-`
+    #[arg(long, value_name = "FILE|-")]
+    pub(super) json: Option<PathBuf>,
+}
+
 /// `--shard I/N`.
-pub(super) fn shard(text: &str) -> Result<Shard, String> {
+fn shard(text: &str) -> Result<Shard, String> {
     let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     match parts {
         Some((index, of)) if index < of => Ok(Shard { index, of }),

@@ -2,15 +2,13 @@
 
 use std::error::Error;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::campaign::{conclude, counted, shard};
+use super::campaign::{PartArgs, conclude, counted};
 use crate::faults::{Report, Spread, campaign, cases};
 use crate::machine_file::MachineFile;
-use crate::shard::Shard;
 
 /// Arguments of `hil faults`.
 #[derive(Debug, Args)]
@@ -24,23 +22,19 @@ pub struct FaultsArgs {
     /// Seed of all cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Only every n-th case, the i-th first: 0/1 is all
-    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
-    shard: Shard,
-    /// Write the table as JSON to a file, or to standard output with `-`
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    part: PartArgs,
 }
 
 /// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 a bound did not hold or a healthy run tripped.
 pub fn main(args: &FaultsArgs) -> ExitCode {
-    conclude(run(args), table, args.json.as_deref(), Report::holds)
+    conclude(run(args), table, args.part.json.as_deref(), Report::holds)
 }
 
 fn run(args: &FaultsArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
-    let mine = cases(args.seeds).div_ceil(args.shard.of);
-    counted(&machine.name, mine, (1.0, "runs"), |done| campaign(&machine, args.seeds, args.seed, args.shard, done))
+    let mine = args.part.shard.cases(cases(args.seeds)).len() as u64;
+    counted(&machine.name, mine, (1.0, "runs"), |done| campaign(&machine, args.seeds, args.seed, args.part.shard, done))
 }
 
 fn table(report: &Report) -> String {

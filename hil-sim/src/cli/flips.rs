@@ -2,13 +2,11 @@
 
 use std::error::Error;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::campaign::{conclude, counted, shard};
-use crate::shard::Shard;
+use super::campaign::{PartArgs, conclude, counted};
 use crate::spoilt::{Report, SLIGHT_M, campaign, cases};
 
 /// Arguments of `hil flips`.
@@ -20,22 +18,18 @@ pub struct FlipsArgs {
     /// Seed of all cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Only every n-th case, the i-th first: 0/1 is all
-    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
-    shard: Shard,
-    /// Write the table as JSON to a file, or to standard output with `-`
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    part: PartArgs,
 }
 
 /// Runs the command; its exit status is 0, 1 it could not write, 2 no image or emulator, or 3 something promised did not hold.
 pub fn main(args: &FlipsArgs) -> ExitCode {
-    conclude(run(args), table, args.json.as_deref(), Report::holds)
+    conclude(run(args), table, args.part.json.as_deref(), Report::holds)
 }
 
 fn run(args: &FlipsArgs) -> Result<Report, Box<dyn Error>> {
-    let mine = cases(args.seeds).div_ceil(args.shard.of);
-    counted("turned bits", mine, (1.0, "runs"), |done| campaign(args.seeds, args.seed, args.shard, done))
+    let mine = args.part.shard.cases(cases(args.seeds)).len() as u64;
+    counted("turned bits", mine, (1.0, "runs"), |done| campaign(args.seeds, args.seed, args.part.shard, done))
 }
 
 fn table(report: &Report) -> String {

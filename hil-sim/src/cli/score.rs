@@ -7,10 +7,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::campaign::{conclude, counted, shard};
+use super::campaign::{PartArgs, conclude, counted};
 use crate::machine_file::MachineFile;
 use crate::score::{LAW, OnPlant, Plants, Report, Row, Setting, runs, score};
-use crate::shard::Shard;
 
 /// Arguments of `hil score`.
 #[derive(Debug, Args)]
@@ -30,17 +29,13 @@ pub struct ScoreArgs {
     /// Without the controllers it is compared with
     #[arg(long)]
     alone: bool,
-    /// Only every n-th case, the i-th first: 0/1 is all
-    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
-    shard: Shard,
-    /// Write the table as JSON to a file, or to standard output with `-`
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    part: PartArgs,
 }
 
 /// Runs the command; its exit status is 0, 1 it could not write, or 2 bad input.
 pub fn main(args: &ScoreArgs) -> ExitCode {
-    conclude(run(args), table, args.json.as_deref(), |_| true)
+    conclude(run(args), table, args.part.json.as_deref(), |_| true)
 }
 
 fn run(args: &ScoreArgs) -> Result<Report, Box<dyn Error>> {
@@ -51,8 +46,8 @@ fn run(args: &ScoreArgs) -> Result<Report, Box<dyn Error>> {
     };
     let plants = if args.tuning { Plants::Tuning } else { Plants::HeldOut };
     let setting = Setting { seeds: args.seeds, plants, law, alone: args.alone };
-    let mine = runs(&setting).div_ceil(args.shard.of);
-    counted(&machine.name, mine, (1.0, "runs"), |done| score(&machine, &setting, args.shard, done))
+    let mine = args.part.shard.cases(runs(&setting)).len() as u64;
+    counted(&machine.name, mine, (1.0, "runs"), |done| score(&machine, &setting, args.part.shard, done))
 }
 
 fn table(report: &Report) -> String {

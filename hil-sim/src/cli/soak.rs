@@ -2,20 +2,18 @@
 
 use std::error::Error;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::campaign::{conclude, counted, shard};
+use super::campaign::{PartArgs, conclude, counted};
 use crate::machine_file::MachineFile;
-use crate::shard::Shard;
 use crate::soak::{Report, runs, soak};
 
 /// Arguments of `hil soak`.
 #[derive(Debug, Args)]
 pub struct SoakArgs {
-    /// Simulated hours, 1 to 10000
+    /// Simulated hours, a case a minute, 1 to 10000
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     hours: u32,
     /// A machine's name, or the path of a machine file
@@ -24,22 +22,18 @@ pub struct SoakArgs {
     /// Seed of operators, payloads and noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Only every n-th minute, the i-th first: 0/1 is all
-    #[arg(long, default_value = "0/1", value_name = "I/N", value_parser = shard)]
-    shard: Shard,
-    /// Write the result as JSON to a file, or to standard output with `-`
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    part: PartArgs,
 }
 
 /// Runs the command; its exit status is 0, 1 it could not write, 2 bad input, or 3 something tripped.
 pub fn main(args: &SoakArgs) -> ExitCode {
-    conclude(run(args), table, args.json.as_deref(), |report| report.trips.is_empty())
+    conclude(run(args), table, args.part.json.as_deref(), |report| report.trips.is_empty())
 }
 
 fn run(args: &SoakArgs) -> Result<Report, Box<dyn Error>> {
     let machine = MachineFile::load(&args.machine)?;
-    let minutes = args.shard.cases(runs(args.hours));
+    let minutes = args.part.shard.cases(runs(args.hours));
     let count = minutes.len() as u64;
     counted(&machine.name, count, (60.0, "hours"), |done| soak(&machine, args.seed, minutes, done))
 }
