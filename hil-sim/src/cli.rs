@@ -74,6 +74,8 @@ enum Command {
     Icd(icd::IcdArgs),
     /// Draw the supervisor and write the page of faults from the firmware's tables, or check that they are up to date
     Supervisor(icd::IcdArgs),
+    /// Run the fault campaign and write its table and figure as a page, or check that they are up to date
+    FaultTable(icd::IcdArgs),
     /// Write the page of safety requirements with their tests from the tests' sources, or check that it is up to date
     Safety(icd::IcdArgs),
     /// Print what an ARM image's flash and stack are for
@@ -122,6 +124,7 @@ pub fn main() -> ExitCode {
         Ok(Hil { command: Command::Bench(args) }) => bench::main(&args),
         Ok(Hil { command: Command::Icd(args) }) => icd::main(&args),
         Ok(Hil { command: Command::Supervisor(args) }) => icd::supervisor(&args),
+        Ok(Hil { command: Command::FaultTable(args) }) => icd::fault_table(&args),
         Ok(Hil { command: Command::Safety(args) }) => icd::safety(&args),
         Ok(Hil { command: Command::Image(args) }) => image::main(&args),
         // A script that asked for a pose reads every error from standard output, a wrong option too.

@@ -12,6 +12,7 @@
 //! - [`run`] — all of it together, tick by tick;
 //! - [`record`] — the controller's parameter record as a file;
 //! - [`faults`] — the fault campaign: what is seen, how soon, and how far the tip still goes;
+//! - [`fault_table`] — what the campaign measured, as a page with its figure;
 //! - [`fence`] — random operators before random fences;
 //! - [`report`] — what a run looks like;
 //! - [`score`] — the motion on plants that no tuning has seen;
@@ -32,6 +33,7 @@ pub mod coil_trial;
 mod dice;
 pub mod effort;
 pub mod elf;
+pub mod fault_table;
 pub mod faults;
 pub mod fence;
 pub mod icd;

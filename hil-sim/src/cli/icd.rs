@@ -1,5 +1,5 @@
-//! `hil icd`, `hil supervisor` and `hil safety`: write pages made from the firmware's tables and the tests' names, or check that they are up
-//! to date.
+//! `hil icd`, `hil supervisor`, `hil fault-table` and `hil safety`: write pages made from the firmware's tables, the fault campaign and the
+//! tests' names, or check that they are up to date.
 
 use std::fs;
 use std::path::PathBuf;
@@ -7,9 +7,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::{icd, safety_page, supervisor_page};
+use super::campaign::counted;
+use crate::faults::{campaign, cases};
+use crate::machine_file::MachineFile;
+use crate::shard::Shard;
+use crate::{fault_table, icd, safety_page, supervisor_page};
 
-/// Arguments of `hil icd`, `hil supervisor` and `hil safety`.
+/// Arguments of `hil icd`, `hil supervisor`, `hil fault-table` and `hil safety`.
 #[derive(Debug, Args)]
 pub struct IcdArgs {
     /// Write nothing; fail when a file is not what would be written
@@ -28,6 +32,23 @@ pub fn main(args: &IcdArgs) -> ExitCode {
 /// Runs `hil supervisor`, with the same exit status.
 pub fn supervisor(args: &IcdArgs) -> ExitCode {
     write_or_check(args, &supervisor_page::files(), "supervisor")
+}
+
+/// Runs `hil fault-table`, with the same exit status; 2 too when the machine cannot be simulated.
+pub fn fault_table(args: &IcdArgs) -> ExitCode {
+    let report = MachineFile::load(fault_table::MACHINE).map_err(Into::into).and_then(|machine| {
+        let steps = cases(fault_table::SEEDS);
+        counted(&machine.name, steps, (1.0, "runs"), |done| {
+            campaign(&machine, fault_table::SEEDS, fault_table::SEED, Shard::WHOLE, done)
+        })
+    });
+    match report {
+        Ok(report) => write_or_check(args, &fault_table::files(&report), "fault-table"),
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
 }
 
 /// Runs `hil safety`, with the same exit status; 1 too when a requirement's test is not there.
