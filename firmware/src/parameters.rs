@@ -8,7 +8,6 @@ use kinematics_core::planning::hull::Sphere;
 use kinematics_core::planning::reach::Target;
 use serde::{Deserialize, Serialize};
 
-use crate::apart::apart;
 use crate::diagnosis::DiagnosisParameters;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
@@ -97,40 +96,30 @@ pub struct MotionParameters {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
     /// The machine's pins.
-    #[serde(deserialize_with = "apart")]
     pub geometry: PinGeometry,
     /// How the swing is read.
-    #[serde(deserialize_with = "apart")]
     pub swing_sensor: SwingSensor,
     /// Boom, arm, bucket.
-    #[serde(deserialize_with = "apart")]
     pub cylinder_sensors: [PositionSensor; 3],
     /// Valves and their solenoids; of a swing motor \[counter-clockwise, clockwise\].
-    #[serde(deserialize_with = "apart")]
     pub coils: CoilStageParameters,
     /// Battery.
     pub supply: Supply,
     /// Supply of the position sensors.
     pub sensor_supply: Supply,
     /// What a healthy machine is like.
-    #[serde(deserialize_with = "apart")]
     pub diagnosis: DiagnosisParameters,
     /// Motion.
-    #[serde(deserialize_with = "apart")]
     pub motion: MotionParameters,
     /// The service jog.
     pub jog: JogParameters,
     /// The dig, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub dig: Option<DigParameters>,
     /// The fence, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub fence: Option<FenceParameters>,
     /// The move, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub planned_move: Option<MoveParameters>,
     /// The target to reach past obstacles, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub reach: Option<ReachParameters>,
     /// The path, where there is one.
     pub path: Option<PathParameters>,

@@ -7,7 +7,6 @@ use kinematics_core::planning::limits::{HALF_SPACES, Limits, SPHERES, SwingRange
 use kinematics_core::planning::outline::OutlineShape;
 use serde::{Deserialize, Serialize};
 
-use crate::apart::apart;
 use crate::parameters::{ParameterError, ordered, within};
 
 /// What the fence checks.
@@ -51,18 +50,14 @@ pub struct SwingRangeParameters {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FenceParameters {
     /// Ceiling, floor, walls.
-    #[serde(deserialize_with = "apart")]
     pub planes: [Option<PlaneParameters>; HALF_SPACES],
     /// Points and balls.
-    #[serde(deserialize_with = "apart")]
     pub balls: [Option<BallParameters>; SPHERES],
     /// The swing's range.
-    #[serde(deserialize_with = "apart")]
     pub swing: Option<SwingRangeParameters>,
     /// Height of the boom pin above the ground, m.
     pub boom_pin_height_m: f64,
     /// Sizes of the linkage's outline.
-    #[serde(deserialize_with = "apart")]
     pub outline: OutlineShape,
     /// What it checks.
     pub guards: Guards,
