@@ -21,6 +21,7 @@ pub struct GradeParameters {
 
 impl GradeParameters {
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         checks.within("grade.point_x_m", self.point_x_m, &[-50.0, 50.0]);
         checks.within("grade.point_z_m", self.point_z_m, &[-50.0, 50.0]);

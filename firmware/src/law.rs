@@ -49,6 +49,7 @@ pub const NO_OVERRUN: f32 = 1e9;
 
 impl LawParameters {
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         checks.within("motion.law.feed_forward", self.feed_forward, &[0.0, 1.0]);
         checks.within("motion.law.integral_per_s2", self.integral_per_s2, &[0.0, 100.0]);
@@ -56,8 +57,8 @@ impl LawParameters {
         checks.within("motion.law.correction_limit_mps", self.correction_limit_mps, &[0.0, 1.0]);
         checks.within("motion.law.rest_zone_m", self.rest_zone_m, &[0.0, 0.05]);
         checks.within("motion.law.reserve", self.reserve, &[0.0, 0.5]);
-        for acceleration in self.acceleration {
-            checks.within("motion.law.acceleration", acceleration, &[0.01, 100.0]);
+        for acceleration in &self.acceleration {
+            checks.within("motion.law.acceleration", *acceleration, &[0.01, 100.0]);
         }
         checks.within("motion.law.cushion_mps2", self.cushion_mps2, &[0.01, 100.0]);
         checks.within("motion.law.tip_acceleration_mps2", self.tip_acceleration_mps2, &[0.01, 20.0]);

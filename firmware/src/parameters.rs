@@ -141,6 +141,7 @@ pub struct ReachParameters {
 }
 
 impl PositionSensor {
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
         let Stroke { min_m, max_m } = self.stroke;
         checks.within("sensor.stroke.min_m", min_m, &[0.001, 50.0]);
@@ -161,7 +162,7 @@ impl PositionSensor {
 
 impl PositionSensor {
     /// The sensor was calibrated on the cylinder it stands on: another stroke would give a plausible wrong pose.
-    fn spans(&self, checks: &mut Checks, stroke: Stroke) {
+    fn spans(&self, checks: &mut Checks, stroke: &Stroke) {
         checks.within("sensor.stroke.min_m", self.stroke.min_m, &[stroke.min_m; 2]);
         checks.within("sensor.stroke.max_m", self.stroke.max_m, &[stroke.max_m; 2]);
     }
@@ -179,18 +180,19 @@ impl Parameters {
         checks.done()
     }
 
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
         if let SwingSensor::Cylinder(sensor) = &self.swing_sensor {
             sensor.check(checks);
         }
         let g = &self.geometry;
-        let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
+        let strokes = [&g.boom.stroke, &g.arm.stroke, &g.bucket.stroke];
         for (sensor, stroke) in self.cylinder_sensors.iter().zip(strokes) {
             sensor.check(checks);
             sensor.spans(checks, stroke);
         }
         if let (SwingSensor::Cylinder(sensor), Some(swing)) = (&self.swing_sensor, &g.swing) {
-            sensor.spans(checks, swing.stroke);
+            sensor.spans(checks, &swing.stroke);
         }
         self.coils.check(checks);
         self.supply.check(checks, &SUPPLY);
@@ -231,6 +233,7 @@ const SENSOR_SUPPLY: Ranges = [
 ];
 
 impl Supply {
+    #[inline(never)]
     fn check(&self, checks: &mut Checks, [full_scale, min, max]: &Ranges) {
         checks.within(full_scale.0, self.full_scale_v, &full_scale.1);
         checks.within(min.0, self.min_v, &min.1);
@@ -242,6 +245,7 @@ impl Supply {
 }
 
 impl ReachParameters {
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
         let far = [-50.0, 50.0];
         checks.within("reach.target.x", self.target.x, &far);
@@ -254,13 +258,14 @@ impl ReachParameters {
             checks.within("reach.obstacle.z", obstacle.z, &far);
             checks.within("reach.obstacle.radius", obstacle.radius, &[0.0, 50.0]);
         }
-        for speed in self.speeds_rad_s {
-            checks.within("reach.speeds_rad_s", speed, &[0.001, 4.0]);
+        for speed in &self.speeds_rad_s {
+            checks.within("reach.speeds_rad_s", *speed, &[0.001, 4.0]);
         }
     }
 }
 
 impl MotionParameters {
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
         checks.within("motion.preview_s", self.preview_s, &[0.0, 1.0]);
         checks.within("motion.gain_per_s", self.gain_per_s, &[0.0, 20.0]);
@@ -275,6 +280,7 @@ impl MotionParameters {
 }
 
 impl DigParameters {
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
         let far = [-50.0, 50.0];
         checks.within("dig.start_x_m", self.start_x_m, &far);
@@ -284,8 +290,8 @@ impl DigParameters {
         checks.within("dig.plunge_m", self.plunge_m, &[0.01, 50.0]);
         checks.within("dig.scoop_radius_m", self.scoop_radius_m, &[0.01, 50.0]);
         checks.within("dig.scoop_end_deg", self.scoop_end_deg, &[-360.0, 360.0]);
-        for pitch in self.pitch_deg {
-            checks.within("dig.pitch_deg", pitch, &[-720.0, 720.0]);
+        for pitch in &self.pitch_deg {
+            checks.within("dig.pitch_deg", *pitch, &[-720.0, 720.0]);
         }
         let [reached, plunged, end] = self.until_s;
         checks.within("dig.until_s", end, &[0.1, 600.0]);
@@ -298,9 +304,10 @@ impl DigParameters {
 
 impl MoveParameters {
     /// Limits and weights are checked where the move is planned.
+    #[inline(never)]
     fn check(&self, checks: &mut Checks) {
-        for place in self.start_m.into_iter().chain(self.target_m) {
-            checks.within("move.start_m, move.target_m", place, &[-50.0, 50.0]);
+        for place in self.start_m.iter().chain(&self.target_m) {
+            checks.within("move.start_m, move.target_m", *place, &[-50.0, 50.0]);
         }
         checks.within("move.start_pitch_deg", self.start_pitch_deg, &[-720.0, 720.0]);
         checks.within("move.turn_per_knot_deg", self.turn_per_knot_deg, &[0.01, 90.0]);

@@ -58,6 +58,7 @@ pub struct PathViolation {
 
 impl PathParameters {
     /// Checks every value; where the path leads is checked when the controller is built.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         let count = self.knots.iter().take_while(|knot| knot.is_some()).count();
         checks.within("path.knots", count as f64, &[2.0, KNOTS as f64]);

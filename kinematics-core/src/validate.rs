@@ -32,31 +32,61 @@ pub(crate) fn positive(field: &'static str, x: f64) -> Result<(), GeometryError>
     if x > 0.0 { Ok(()) } else { Err(error(field, Problem::NotPositive(x))) }
 }
 
-fn pin(fields: [&'static str; 2], v: Vec2<f64>) -> Result<(), GeometryError> {
-    finite(fields[0], v.x)?;
-    finite(fields[1], v.z)?;
-    if v.norm_squared() > 0.0 { Ok(()) } else { Err(error(fields[0], Problem::PinsCoincide)) }
-}
+/// Checks values one after the other and keeps the first error: looking at a result after each would take more code than the checks.
+struct Checks(Result<(), GeometryError>);
 
-fn stroke(fields: [&'static str; 2], stroke: Stroke) -> Result<(), GeometryError> {
-    let Stroke { min_m, max_m } = stroke;
-    positive(fields[0], min_m)?;
-    positive(fields[1], max_m)?;
-    if min_m < max_m { Ok(()) } else { Err(error(fields[0], Problem::MinNotBelowMax { min_m, max_m })) }
-}
+/// A pin's two coordinates, or a stroke's two ends, by their fields.
+type Two = [&'static str; 2];
 
-/// The triangle closes, with the tolerance, over the whole stroke.
-fn closes(fields: [&'static str; 2], sides: Sides, stroke: Stroke) -> Result<(), GeometryError> {
-    let ends = [
-        (fields[0], stroke.min_m, stroke.min_m - STROKE_TOLERANCE_M),
-        (fields[1], stroke.max_m, stroke.max_m + STROKE_TOLERANCE_M),
-    ];
-    for (field, length_m, tried) in ends {
-        if !sides.closed_by(tried) {
-            return Err(error(field, Problem::DoesNotClose { length_m }));
+const BOOM: Two = ["boom.min_m", "boom.max_m"];
+const ARM: Two = ["arm.min_m", "arm.max_m"];
+const BUCKET: Two = ["bucket.min_m", "bucket.max_m"];
+const SWING: Two = ["swing.min_m", "swing.max_m"];
+
+impl Checks {
+    fn and(&mut self, checked: Result<(), GeometryError>) {
+        if self.0.is_ok() {
+            self.0 = checked;
         }
     }
-    Ok(())
+
+    #[inline(never)]
+    fn finite(&mut self, field: &'static str, x: f64) {
+        self.and(finite(field, x));
+    }
+
+    #[inline(never)]
+    fn positive(&mut self, field: &'static str, x: f64) {
+        self.and(positive(field, x));
+    }
+
+    #[inline(never)]
+    fn pin(&mut self, [x, z]: &Two, v: Vec2<f64>) {
+        self.finite(x, v.x);
+        self.finite(z, v.z);
+        let stands_apart = v.norm_squared() > 0.0;
+        self.and(if stands_apart { Ok(()) } else { Err(error(x, Problem::PinsCoincide)) });
+    }
+
+    #[inline(never)]
+    fn stroke(&mut self, [shortest, longest]: &Two, Stroke { min_m, max_m }: Stroke) {
+        self.positive(shortest, min_m);
+        self.positive(longest, max_m);
+        self.and(if min_m < max_m { Ok(()) } else { Err(error(shortest, Problem::MinNotBelowMax { min_m, max_m })) });
+    }
+
+    /// The triangle closes, with the tolerance, over the whole stroke.
+    #[inline(never)]
+    fn closes(&mut self, [shortest, longest]: &Two, [a, b]: [f64; 2], stroke: Stroke) {
+        let sides = Sides { a, b };
+        self.closed(shortest, &sides, stroke.min_m, stroke.min_m - STROKE_TOLERANCE_M);
+        self.closed(longest, &sides, stroke.max_m, stroke.max_m + STROKE_TOLERANCE_M);
+    }
+
+    #[inline(never)]
+    fn closed(&mut self, field: &'static str, sides: &Sides, length_m: f64, tried: f64) {
+        self.and(if sides.closed_by(tried) { Ok(()) } else { Err(error(field, Problem::DoesNotClose { length_m })) });
+    }
 }
 
 /// The arc between a joint's rotors at both ends of a stroke, tolerance included.
@@ -81,38 +111,45 @@ impl PinGeometry {
     /// # Errors
     /// The first problem found, named by its field.
     pub fn validate(&self) -> Result<(), GeometryError> {
-        finite("links.boom_pin_x_m", self.boom_pin_x_m)?;
-        positive("links.boom_m", self.boom_m)?;
-        positive("links.arm_m", self.arm_m)?;
-        positive("links.bucket_m", self.bucket_m)?;
-        self.validate_boom()?;
-        self.validate_arm()?;
-        self.validate_bucket()?;
-        self.validate_swing()
+        let mut checks = Checks(Ok(()));
+        checks.finite("links.boom_pin_x_m", self.boom_pin_x_m);
+        checks.positive("links.boom_m", self.boom_m);
+        checks.positive("links.arm_m", self.arm_m);
+        checks.positive("links.bucket_m", self.bucket_m);
+        self.check_boom(&mut checks);
+        self.check_arm(&mut checks);
+        self.check_bucket(&mut checks);
+        self.check_swing(&mut checks);
+        checks.0
     }
 
-    fn validate_boom(&self) -> Result<(), GeometryError> {
-        let CylinderPins { base, rod, stroke: travel } = self.boom;
-        pin(["boom.base_x_m", "boom.base_z_m"], base)?;
-        pin(["boom.rod_x_m", "boom.rod_z_m"], rod)?;
-        let ends = ["boom.min_m", "boom.max_m"];
-        stroke(ends, travel)?;
-        closes(ends, Sides { a: base.norm(), b: rod.norm() }, travel)
+    fn check_boom(&self, checks: &mut Checks) {
+        let CylinderPins { base, rod, stroke } = self.boom;
+        checks.pin(&["boom.base_x_m", "boom.base_z_m"], base);
+        checks.pin(&["boom.rod_x_m", "boom.rod_z_m"], rod);
+        checks.stroke(&BOOM, stroke);
+        checks.closes(&BOOM, [base.norm(), rod.norm()], stroke);
     }
 
-    fn validate_arm(&self) -> Result<(), GeometryError> {
-        let CylinderPins { base, rod, stroke: travel } = self.arm;
-        finite("arm.base_x_m", base.x)?;
-        finite("arm.base_z_m", base.z)?;
+    fn check_arm(&self, checks: &mut Checks) {
+        let CylinderPins { base, rod, stroke } = self.arm;
+        checks.finite("arm.base_x_m", base.x);
+        checks.finite("arm.base_z_m", base.z);
         let base = self.arm_base_from_pin();
-        pin(["arm.base_x_m", "arm.base_z_m"], base)?;
-        pin(["arm.rod_x_m", "arm.rod_z_m"], rod)?;
-        let ends = ["arm.min_m", "arm.max_m"];
-        stroke(ends, travel)?;
-        closes(ends, Sides { a: base.norm(), b: rod.norm() }, travel)?;
-        let triangle = Triangle::<f64>::new(base, rod, Side::Clockwise, 1.0);
-        for (field, length_m) in [(ends[0], travel.min_m), (ends[1], travel.max_m)] {
-            // Both ends curled means curled all the way: the triangle turns by less than half a turn.
+        checks.pin(&["arm.base_x_m", "arm.base_z_m"], base);
+        checks.pin(&["arm.rod_x_m", "arm.rod_z_m"], rod);
+        checks.stroke(&ARM, stroke);
+        checks.closes(&ARM, [base.norm(), rod.norm()], stroke);
+        if checks.0.is_ok() {
+            checks.0 = self.arm_curls();
+        }
+    }
+
+    /// Both ends curled means curled all the way: the triangle turns by less than half a turn.
+    fn arm_curls(&self) -> Result<(), GeometryError> {
+        let triangle = Triangle::<f64>::new(self.arm_base_from_pin(), self.arm.rod, Side::Clockwise, 1.0);
+        let Stroke { min_m, max_m } = self.arm.stroke;
+        for (field, length_m) in ARM.into_iter().zip([min_m, max_m]) {
             if !triangle.rotor(length_m).is_ok_and(|r| r.sin < 0.0) {
                 return Err(error(field, Problem::ArmStretches { length_m }));
             }
@@ -120,30 +157,37 @@ impl PinGeometry {
         Ok(())
     }
 
-    fn validate_bucket(&self) -> Result<(), GeometryError> {
-        let b = self.bucket;
+    fn check_bucket(&self, checks: &mut Checks) {
+        let b = &self.bucket;
         // Each pin by itself first: the differences below would name one pin for the other.
-        finite("bucket.base_x_m", b.base.x)?;
-        finite("bucket.base_z_m", b.base.z)?;
-        finite("bucket.rocker_pivot_x_m", b.rocker_pivot.x)?;
-        finite("bucket.rocker_pivot_z_m", b.rocker_pivot.z)?;
-        pin(["bucket.base_x_m", "bucket.base_z_m"], b.base - b.rocker_pivot)?;
+        checks.finite("bucket.base_x_m", b.base.x);
+        checks.finite("bucket.base_z_m", b.base.z);
+        checks.finite("bucket.rocker_pivot_x_m", b.rocker_pivot.x);
+        checks.finite("bucket.rocker_pivot_z_m", b.rocker_pivot.z);
+        let base_from_pivot = b.base - b.rocker_pivot;
+        checks.pin(&["bucket.base_x_m", "bucket.base_z_m"], base_from_pivot);
         let pivot_from_pin = b.rocker_pivot - self.bucket_pin();
-        pin(["bucket.rocker_pivot_x_m", "bucket.rocker_pivot_z_m"], pivot_from_pin)?;
-        pin(["bucket.coupler_pin_x_m", "bucket.coupler_pin_z_m"], b.coupler_pin)?;
-        positive("bucket.rocker_m", b.rocker_m)?;
-        positive("bucket.coupler_m", b.coupler_m)?;
-        let ends = ["bucket.min_m", "bucket.max_m"];
-        stroke(ends, b.stroke)?;
-        let sides = Sides { a: (b.base - b.rocker_pivot).norm(), b: b.rocker_m };
-        closes(ends, sides, b.stroke)?;
+        checks.pin(&["bucket.rocker_pivot_x_m", "bucket.rocker_pivot_z_m"], pivot_from_pin);
+        checks.pin(&["bucket.coupler_pin_x_m", "bucket.coupler_pin_z_m"], b.coupler_pin);
+        checks.positive("bucket.rocker_m", b.rocker_m);
+        checks.positive("bucket.coupler_m", b.coupler_m);
+        checks.stroke(&BUCKET, b.stroke);
+        checks.closes(&BUCKET, [base_from_pivot.norm(), b.rocker_m], b.stroke);
+        if checks.0.is_ok() {
+            checks.0 = self.bucket_turns();
+        }
+    }
 
+    /// The four-bar neither folds nor falls apart anywhere on the stroke.
+    fn bucket_turns(&self) -> Result<(), GeometryError> {
+        let Stroke { min_m, max_m } = self.bucket.stroke;
+        let [shortest, longest] = BUCKET;
         let linkage = self.four_bar::<f64>();
-        let lowest = b.stroke.min_m - STROKE_TOLERANCE_M;
-        let step = (b.stroke.max_m + STROKE_TOLERANCE_M - lowest) / f64::from(SAMPLES);
+        let lowest = min_m - STROKE_TOLERANCE_M;
+        let step = (max_m + STROKE_TOLERANCE_M - lowest) / f64::from(SAMPLES);
         for i in 0..=SAMPLES {
             let length_m = lowest + f64::from(i) * step;
-            let field = if 2 * i <= SAMPLES { ends[0] } else { ends[1] };
+            let field = if 2 * i <= SAMPLES { shortest } else { longest };
             match linkage.assembly(length_m) {
                 Ok(assembly) if assembly.forward > 0.0 && assembly.inverse > 0.0 => {}
                 Ok(_) => return Err(error(field, Problem::Folds { length_m })),
@@ -153,13 +197,12 @@ impl PinGeometry {
         Ok(())
     }
 
-    fn validate_swing(&self) -> Result<(), GeometryError> {
-        let Some(swing) = self.swing else { return Ok(()) };
-        pin(["swing.base_x_m", "swing.base_y_m"], swing.base)?;
-        pin(["swing.rod_x_m", "swing.rod_y_m"], swing.rod)?;
-        let ends = ["swing.min_m", "swing.max_m"];
-        stroke(ends, swing.stroke)?;
-        closes(ends, Sides { a: swing.base.norm(), b: swing.rod.norm() }, swing.stroke)
+    fn check_swing(&self, checks: &mut Checks) {
+        let Some(swing) = &self.swing else { return };
+        checks.pin(&["swing.base_x_m", "swing.base_y_m"], swing.base);
+        checks.pin(&["swing.rod_x_m", "swing.rod_y_m"], swing.rod);
+        checks.stroke(&SWING, swing.stroke);
+        checks.closes(&SWING, [swing.base.norm(), swing.rod.norm()], swing.stroke);
     }
 
     /// The joint angles of boom, arm and bucket over their strokes, tolerance included.
@@ -169,9 +212,9 @@ impl PinGeometry {
         let arm = Triangle::<f64>::new(self.arm_base_from_pin(), self.arm.rod, Side::Clockwise, 1.0);
         let bucket = self.four_bar::<f64>();
         Ok([
-            sector(side, ["boom.min_m", "boom.max_m"], self.boom.stroke, |l| boom.rotor(l).ok())?,
-            sector(Side::Clockwise, ["arm.min_m", "arm.max_m"], self.arm.stroke, |l| arm.rotor(l).ok())?,
-            sector(Side::Clockwise, ["bucket.min_m", "bucket.max_m"], self.bucket.stroke, |l| bucket.rotor(l).ok())?,
+            sector(side, BOOM, self.boom.stroke, |l| boom.rotor(l).ok())?,
+            sector(Side::Clockwise, ARM, self.arm.stroke, |l| arm.rotor(l).ok())?,
+            sector(Side::Clockwise, BUCKET, self.bucket.stroke, |l| bucket.rotor(l).ok())?,
         ])
     }
 

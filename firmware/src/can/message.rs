@@ -3,7 +3,7 @@
 use super::frame::CanFrame;
 use super::id::Identifier;
 use super::protect;
-use super::signal::{Signal, Unusable};
+use super::signal::{Signal, Unusable, Word};
 
 /// Who sends a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,9 +54,9 @@ pub enum Rate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Header {
     /// In CamelCase.
-    pub name: &'static str,
+    pub name: Word,
     /// What it is for.
-    pub about: &'static str,
+    pub about: Word,
     /// Parameter group number.
     pub pgn: u32,
     /// 0…7.

@@ -1,6 +1,7 @@
 //! Whether a received message may be used. Each message has its own watch; no message's state touches another's.
 
 use super::message::Header;
+use super::signal::{Word, states};
 use super::{frame::CanFrame, id::Identifier, protect};
 
 /// A counter may miss this many messages and still count as moving on: five fill the timeout.
@@ -28,8 +29,14 @@ pub enum Validity {
 
 impl Validity {
     /// Codes and names on the bus.
-    pub const NAMES: [(u32, &'static str); 6] =
-        [(0, "fresh"), (1, "stale"), (2, "short"), (3, "bad_checksum"), (4, "frozen_counter"), (5, "out_of_range")];
+    pub const NAMES: [(u32, Word); 6] = states([
+        (0, "fresh"),
+        (1, "stale"),
+        (2, "short"),
+        (3, "bad_checksum"),
+        (4, "frozen_counter"),
+        (5, "out_of_range"),
+    ]);
 
     /// As on the bus.
     pub const fn code(self) -> u32 {

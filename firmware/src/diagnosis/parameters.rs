@@ -86,10 +86,11 @@ impl DiagnosisParameters {
     }
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         for actuator in &self.actuators {
-            for speed in actuator.full_speed {
-                checks.within("diagnosis.full_speed", speed, &[0.001, 5.0]);
+            for speed in &actuator.full_speed {
+                checks.within("diagnosis.full_speed", *speed, &[0.001, 5.0]);
             }
             checks.within("diagnosis.noise", actuator.noise, &[0.0, 0.01]);
             // Closer, and noise would trip it.

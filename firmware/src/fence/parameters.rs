@@ -78,6 +78,7 @@ pub struct FenceParameters {
 }
 
 impl FenceParameters {
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         let far = [-1000.0, 1000.0];
         for plane in self.planes.iter().flatten() {
@@ -86,8 +87,8 @@ impl FenceParameters {
             checks.within("fence.planes.offset_m", plane.offset_m, &far);
         }
         for ball in self.balls.iter().flatten() {
-            for x in ball.centre_m {
-                checks.within("fence.balls.centre_m", x, &far);
+            for x in &ball.centre_m {
+                checks.within("fence.balls.centre_m", *x, &far);
             }
             checks.within("fence.balls.radius_m", ball.radius_m, &[0.0, 100.0]);
         }

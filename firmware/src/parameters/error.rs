@@ -96,7 +96,12 @@ impl Checks {
     /// A value in its range.
     #[inline(never)]
     pub(crate) fn within(&mut self, field: &'static str, value: impl Into<f64>, range: &[f64; 2]) {
-        self.and(within(field, value.into(), *range));
+        self.judge(field, value.into(), range);
+    }
+
+    #[inline(never)]
+    fn judge(&mut self, field: &'static str, value: f64, range: &[f64; 2]) {
+        self.and(within(field, value, *range));
     }
 
     /// The value of the first field below that of the second.

@@ -21,6 +21,7 @@ impl JogParameters {
     /// Each direction's own limit.
     pub const DEFAULT: Self = Self { max_current_a: None };
 
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         if let Some(max_a) = self.max_current_a {
             checks.within("jog.max_current_a", max_a, &[0.05, 3.0]);

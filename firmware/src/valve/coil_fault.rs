@@ -150,6 +150,7 @@ impl WatchParameters {
     }
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         let [coldest, hottest] = self.winding_c;
         checks.within("coil_watch.winding_c", coldest, &[-60.0, 180.0]);

@@ -86,6 +86,7 @@ impl CoilStageParameters {
     }
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         for spool in &self.spools {
             spool.flow.iter().for_each(|flow| flow.check(checks));

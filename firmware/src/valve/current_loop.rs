@@ -56,6 +56,7 @@ impl LoopParameters {
     }
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         let tick_s = f64::from(TICK_S);
         checks.within("coil.resistance_ohm", self.resistance_ohm, &[0.5, 100.0]);

@@ -28,6 +28,7 @@ impl DitherParameters {
     pub const NONE: Self = Self { frequency_hz: 50.0, amplitude_a: 0.0, fade_below_a: 0.1 };
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         checks.within("dither.frequency_hz", self.frequency_hz, &[10.0, 250.0]);
         checks.within("dither.amplitude_a", self.amplitude_a, &[0.0, 0.5]);

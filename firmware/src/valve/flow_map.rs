@@ -50,6 +50,7 @@ impl FlowParameters {
     }
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         checks.within("valve.max_current_a", self.max_current_a, &[0.05, 5.0]);
         checks.within("valve.min_current_a", self.min_current_a, &[0.0, 0.9 * f64::from(self.max_current_a)]);

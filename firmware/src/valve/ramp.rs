@@ -19,6 +19,7 @@ impl RampParameters {
     pub const NONE: Self = Self { up_a_per_s: 10_000.0, down_a_per_s: 10_000.0 };
 
     /// Checks every value.
+    #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         checks.within("ramp.up_a_per_s", self.up_a_per_s, &[0.01, 10_000.0]);
         checks.within("ramp.down_a_per_s", self.down_a_per_s, &[0.01, 10_000.0]);
