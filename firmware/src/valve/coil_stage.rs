@@ -125,6 +125,7 @@ impl CoilStage {
     ///
     /// # Errors
     /// The first parameter at fault, by name and range.
+    #[inline(never)]
     pub fn new(parameters: &CoilStageParameters) -> Result<Self, ParameterError> {
         let p = parameters;
         let mut checks = Checks::new();
