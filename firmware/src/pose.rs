@@ -4,13 +4,13 @@ use kinematics_core::{GeometryError, Machine, PinGeometry, Pose, PoseError};
 
 use crate::sensing::Sensed;
 
-/// The maps of a geometry. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
+/// The maps of a geometry; nothing here asks those in fixed point. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
 ///
 /// # Errors
 /// The first problem of the geometry, named by its field.
 #[inline(never)]
 pub(crate) fn maps(geometry: &PinGeometry) -> Result<Machine<f32>, GeometryError> {
-    Machine::new(geometry)
+    Machine::without_fine_maps(geometry)
 }
 
 /// The bucket pose of what the sensors say.
