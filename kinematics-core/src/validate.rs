@@ -1,11 +1,13 @@
 //! Validation of a geometry, once: every field finite, lengths positive, linkages closed and unfolded over the stroke.
 
+use crate::error::Cylinder;
 use crate::four_bar::FourBar;
 use crate::geometry::{CylinderPins, GeometryError, PinGeometry, Problem, Stroke};
+use crate::linkages::Linkages;
 use crate::sector::Sector;
 use crate::stroke::STROKE_TOLERANCE_M;
-use crate::triangle::{Side, Sides, Triangle};
-use crate::{Real, Rotor, Vec2};
+use crate::triangle::{Side, Sides};
+use crate::{Real, Vec2};
 
 /// How many cylinder lengths the four-bar is tried at: a fold shows as a changed sign at every later one.
 const SAMPLES: i32 = 512;
@@ -17,7 +19,7 @@ fn error(field: &'static str, problem: Problem) -> GeometryError {
 /// No machine has a number beyond this, m; far beyond, f32 overflows and a pose is not a number.
 const LARGEST_M: f64 = 1e3;
 
-pub(crate) fn finite(field: &'static str, x: f64) -> Result<(), GeometryError> {
+fn finite(field: &'static str, x: f64) -> Result<(), GeometryError> {
     if !x.is_finite() {
         Err(error(field, Problem::NotFinite))
     } else if !(-LARGEST_M..=LARGEST_M).contains(&x) {
@@ -33,7 +35,7 @@ pub(crate) fn positive(field: &'static str, x: f64) -> Result<(), GeometryError>
 }
 
 /// Checks values one after the other and keeps the first error: looking at a result after each would take more code than the checks.
-struct Checks(Result<(), GeometryError>);
+pub(crate) struct Checks(pub(crate) Result<(), GeometryError>);
 
 /// A pin's two coordinates, or a stroke's two ends, by their fields.
 type Two = [&'static str; 2];
@@ -51,12 +53,12 @@ impl Checks {
     }
 
     #[inline(never)]
-    fn finite(&mut self, field: &'static str, x: f64) {
+    pub(crate) fn finite(&mut self, field: &'static str, x: f64) {
         self.and(finite(field, x));
     }
 
     #[inline(never)]
-    fn positive(&mut self, field: &'static str, x: f64) {
+    pub(crate) fn positive(&mut self, field: &'static str, x: f64) {
         self.and(positive(field, x));
     }
 
@@ -87,22 +89,6 @@ impl Checks {
     fn closed(&mut self, field: &'static str, sides: &Sides, length_m: f64, tried: f64) {
         self.and(if sides.closed_by(tried) { Ok(()) } else { Err(error(field, Problem::DoesNotClose { length_m })) });
     }
-}
-
-/// The arc between a joint's rotors at both ends of a stroke, tolerance included.
-fn sector<T: Real>(
-    side: Side,
-    fields: [&'static str; 2],
-    stroke: Stroke,
-    rotor: impl Fn(f64) -> Option<Rotor<f64>>,
-) -> Result<Sector<T>, GeometryError> {
-    let end = |field, length_m| rotor(length_m).ok_or_else(|| error(field, Problem::DoesNotClose { length_m }));
-    let shortest = end(fields[0], stroke.min_m - STROKE_TOLERANCE_M)?;
-    let longest = end(fields[1], stroke.max_m + STROKE_TOLERANCE_M)?;
-    Ok(match side {
-        Side::CounterClockwise => Sector::between(shortest, longest),
-        Side::Clockwise => Sector::between(longest, shortest),
-    })
 }
 
 impl PinGeometry {
@@ -147,10 +133,10 @@ impl PinGeometry {
 
     /// Both ends curled means curled all the way: the triangle turns by less than half a turn.
     fn arm_curls(&self) -> Result<(), GeometryError> {
-        let triangle = Triangle::<f64>::new(self.arm_base_from_pin(), self.arm.rod, Side::Clockwise, 1.0);
+        let linkages = Linkages::new(self);
         let Stroke { min_m, max_m } = self.arm.stroke;
         for (field, length_m) in ARM.into_iter().zip([min_m, max_m]) {
-            if !triangle.rotor(length_m).is_ok_and(|r| r.sin < 0.0) {
+            if !linkages.rotor(Cylinder::Arm, length_m).is_some_and(|r| r.sin < 0.0) {
                 return Err(error(field, Problem::ArmStretches { length_m }));
             }
         }
@@ -182,13 +168,13 @@ impl PinGeometry {
     fn bucket_turns(&self) -> Result<(), GeometryError> {
         let Stroke { min_m, max_m } = self.bucket.stroke;
         let [shortest, longest] = BUCKET;
-        let linkage = self.four_bar::<f64>();
+        let linkages = Linkages::new(self);
         let lowest = min_m - STROKE_TOLERANCE_M;
         let step = (max_m + STROKE_TOLERANCE_M - lowest) / f64::from(SAMPLES);
         for i in 0..=SAMPLES {
             let length_m = lowest + f64::from(i) * step;
             let field = if 2 * i <= SAMPLES { shortest } else { longest };
-            match linkage.assembly(length_m) {
+            match linkages.bucket().assembly(length_m) {
                 Ok(assembly) if assembly.forward > 0.0 && assembly.inverse > 0.0 => {}
                 Ok(_) => return Err(error(field, Problem::Folds { length_m })),
                 Err(_) => return Err(error(field, Problem::DoesNotClose { length_m })),
@@ -207,14 +193,22 @@ impl PinGeometry {
 
     /// The joint angles of boom, arm and bucket over their strokes, tolerance included.
     pub(crate) fn sectors<T: Real>(&self) -> Result<[Sector<T>; 3], GeometryError> {
-        let side = self.boom_cylinder.side();
-        let boom = Triangle::<f64>::new(self.boom.base, self.boom.rod, side, 1.0);
-        let arm = Triangle::<f64>::new(self.arm_base_from_pin(), self.arm.rod, Side::Clockwise, 1.0);
-        let bucket = self.four_bar::<f64>();
+        let linkages = Linkages::new(self);
+        let sector = |side, cylinder, [shortest, longest]: Two, Stroke { min_m, max_m }| {
+            let rotor = |field, length_m, tried| {
+                linkages.rotor(cylinder, tried).ok_or_else(|| error(field, Problem::DoesNotClose { length_m }))
+            };
+            let shortest = rotor(shortest, min_m, min_m - STROKE_TOLERANCE_M)?;
+            let longest = rotor(longest, max_m, max_m + STROKE_TOLERANCE_M)?;
+            Ok(match side {
+                Side::CounterClockwise => Sector::between(shortest, longest),
+                Side::Clockwise => Sector::between(longest, shortest),
+            })
+        };
         Ok([
-            sector(side, BOOM, self.boom.stroke, |l| boom.rotor(l).ok())?,
-            sector(Side::Clockwise, ARM, self.arm.stroke, |l| arm.rotor(l).ok())?,
-            sector(Side::Clockwise, BUCKET, self.bucket.stroke, |l| bucket.rotor(l).ok())?,
+            sector(self.boom_cylinder.side(), Cylinder::Boom, BOOM, self.boom.stroke)?,
+            sector(Side::Clockwise, Cylinder::Arm, ARM, self.arm.stroke)?,
+            sector(Side::Clockwise, Cylinder::Bucket, BUCKET, self.bucket.stroke)?,
         ])
     }
 
