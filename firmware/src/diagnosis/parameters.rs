@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::parameters::Checks;
+use crate::parameters::{Checks, ParameterError};
 
 /// One actuator. Lengths are m and speeds m/s of a cylinder, rad and rad/s of a swing motor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,6 +86,15 @@ impl DiagnosisParameters {
     }
 
     /// Checks every value.
+    ///
+    /// # Errors
+    /// The first at fault, by name and range.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        let mut checks = Checks::new();
+        self.check(&mut checks);
+        checks.done()
+    }
+
     #[inline(never)]
     pub(crate) fn check(&self, checks: &mut Checks) {
         for actuator in &self.actuators {

@@ -1,5 +1,5 @@
-//! Values as the bytes of a record, field after field: the format that serde and postcard give the same structures, in a twentieth of the
-//! machine code. A test holds the two together.
+//! Values as the bytes of a record, field after field: the format that serde and postcard give the same structures, in a third of their
+//! machine code. Tests hold the two together.
 //!
 //! Numbers are little-endian; a `u16` is 7 bits a byte, the lowest first, the highest bit set but in the last; an `Option` begins with 0 or
 //! 1, an enum with its variant's number, written as a `u16` is.
