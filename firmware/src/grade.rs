@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::parameters::{ParameterError, within};
+use crate::parameters::Checks;
 
 /// A plane as it cuts the boom's plane: a line through a point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,14 +21,12 @@ pub struct GradeParameters {
 
 impl GradeParameters {
     /// Checks every value.
-    ///
-    /// # Errors
-    /// The first out of its range, by name.
-    pub fn validate(&self) -> Result<(), ParameterError> {
-        within("grade.point_x_m", self.point_x_m, [-50.0, 50.0])?;
-        within("grade.point_z_m", self.point_z_m, [-50.0, 50.0])?;
-        within("grade.slope_deg", self.slope_deg, [-80.0, 80.0])?;
-        within("grade.speed_mps", self.speed_mps, [0.001, 3.0])?;
-        within("grade.tolerance_m", self.tolerance_m, [0.001, 1.0])
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        checks.within("grade.point_x_m", self.point_x_m, &[-50.0, 50.0]);
+        checks.within("grade.point_z_m", self.point_z_m, &[-50.0, 50.0]);
+        checks.within("grade.slope_deg", self.slope_deg, &[-80.0, 80.0]);
+        checks.within("grade.speed_mps", self.speed_mps, &[0.001, 3.0]);
+        checks.within("grade.tolerance_m", self.tolerance_m, &[0.001, 1.0]);
     }
 }

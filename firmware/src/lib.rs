@@ -12,7 +12,6 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-mod apart;
 pub mod board;
 mod bytes;
 pub mod calibration;

@@ -8,7 +8,6 @@ use kinematics_core::planning::hull::Sphere;
 use kinematics_core::planning::reach::Target;
 use serde::{Deserialize, Serialize};
 
-use crate::apart::apart;
 use crate::diagnosis::DiagnosisParameters;
 use crate::dig::DigParameters;
 use crate::fence::FenceParameters;
@@ -20,7 +19,7 @@ use crate::service::JogParameters;
 use crate::valve::coil_stage::CoilStageParameters;
 
 pub use error::ParameterError;
-pub(crate) use error::{ordered, within};
+pub(crate) use error::{Checks, ordered, within};
 
 /// A cylinder's position sensor: its stroke lies linearly between two ADC codes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,40 +96,30 @@ pub struct MotionParameters {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
     /// The machine's pins.
-    #[serde(deserialize_with = "apart")]
     pub geometry: PinGeometry,
     /// How the swing is read.
-    #[serde(deserialize_with = "apart")]
     pub swing_sensor: SwingSensor,
     /// Boom, arm, bucket.
-    #[serde(deserialize_with = "apart")]
     pub cylinder_sensors: [PositionSensor; 3],
     /// Valves and their solenoids; of a swing motor \[counter-clockwise, clockwise\].
-    #[serde(deserialize_with = "apart")]
     pub coils: CoilStageParameters,
     /// Battery.
     pub supply: Supply,
     /// Supply of the position sensors.
     pub sensor_supply: Supply,
     /// What a healthy machine is like.
-    #[serde(deserialize_with = "apart")]
     pub diagnosis: DiagnosisParameters,
     /// Motion.
-    #[serde(deserialize_with = "apart")]
     pub motion: MotionParameters,
     /// The service jog.
     pub jog: JogParameters,
     /// The dig, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub dig: Option<DigParameters>,
     /// The fence, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub fence: Option<FenceParameters>,
     /// The move, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub planned_move: Option<MoveParameters>,
     /// The target to reach past obstacles, where there is one.
-    #[serde(deserialize_with = "apart")]
     pub reach: Option<ReachParameters>,
     /// The path, where there is one.
     pub path: Option<PathParameters>,
@@ -152,26 +141,30 @@ pub struct ReachParameters {
 }
 
 impl PositionSensor {
-    fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
         let Stroke { min_m, max_m } = self.stroke;
-        within("sensor.stroke.min_m", min_m, [0.001, 50.0])?;
-        within("sensor.stroke.max_m", max_m, [0.001, 50.0])?;
-        ordered(("sensor.stroke.min_m", min_m), ("sensor.stroke.max_m", max_m))?;
+        checks.within("sensor.stroke.min_m", min_m, &[0.001, 50.0]);
+        checks.within("sensor.stroke.max_m", max_m, &[0.001, 50.0]);
+        checks.ordered(&["sensor.stroke.min_m", "sensor.stroke.max_m"], [min_m, max_m]);
         // A stroke over fewer codes would read coarser than a tenth of a per mille.
-        ordered(("sensor.min_code", f64::from(self.min_code) + 9999.0), ("sensor.max_code", f64::from(self.max_code)))?;
+        checks.ordered(
+            &["sensor.min_code", "sensor.max_code"],
+            [f64::from(self.min_code) + 9999.0, f64::from(self.max_code)],
+        );
         // Some codes must be left to mean a broken wire: the lowest for an open one, the highest for a short.
-        within("sensor.min_code", self.min_code.into(), [1.0, f64::from(u16::MAX)])?;
-        within("sensor.max_code", self.max_code.into(), [0.0, f64::from(u16::MAX - 1)])?;
+        checks.within("sensor.min_code", self.min_code, &[1.0, f64::from(u16::MAX)]);
+        checks.within("sensor.max_code", self.max_code, &[0.0, f64::from(u16::MAX - 1)]);
         let room = core::cmp::min(self.min_code, u16::MAX - self.max_code);
-        within("sensor.tolerance_codes", f64::from(self.tolerance_codes), [0.0, f64::from(room.saturating_sub(1))])
+        checks.within("sensor.tolerance_codes", self.tolerance_codes, &[0.0, f64::from(room.saturating_sub(1))]);
     }
 }
 
 impl PositionSensor {
     /// The sensor was calibrated on the cylinder it stands on: another stroke would give a plausible wrong pose.
-    fn spans(&self, stroke: Stroke) -> Result<(), ParameterError> {
-        within("sensor.stroke.min_m", self.stroke.min_m, [stroke.min_m; 2])?;
-        within("sensor.stroke.max_m", self.stroke.max_m, [stroke.max_m; 2])
+    fn spans(&self, checks: &mut Checks, stroke: &Stroke) {
+        checks.within("sensor.stroke.min_m", self.stroke.min_m, &[stroke.min_m; 2]);
+        checks.within("sensor.stroke.max_m", self.stroke.max_m, &[stroke.max_m; 2]);
     }
 }
 
@@ -181,114 +174,146 @@ impl Parameters {
     /// # Errors
     /// The first at fault, by name and range. The dig's travel is checked when the application is built.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        self.geometry.validate()?;
+        let mut checks = Checks::new();
+        checks.and(self.geometry.validate().map_err(ParameterError::Geometry));
+        self.check(&mut checks);
+        checks.done()
+    }
+
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
         if let SwingSensor::Cylinder(sensor) = &self.swing_sensor {
-            sensor.validate()?;
+            sensor.check(checks);
         }
         let g = &self.geometry;
-        let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
+        let strokes = [&g.boom.stroke, &g.arm.stroke, &g.bucket.stroke];
         for (sensor, stroke) in self.cylinder_sensors.iter().zip(strokes) {
-            sensor.validate()?;
-            sensor.spans(stroke)?;
+            sensor.check(checks);
+            sensor.spans(checks, stroke);
         }
         if let (SwingSensor::Cylinder(sensor), Some(swing)) = (&self.swing_sensor, &g.swing) {
-            sensor.spans(swing.stroke)?;
+            sensor.spans(checks, &swing.stroke);
         }
-        self.coils.validate()?;
-        let [full_scale, min, max] = ["supply.full_scale_v", "supply.min_v", "supply.max_v"];
-        self.supply.validate([(full_scale, [10.0, 100.0]), (min, [6.0, 60.0]), (max, [6.0, 60.0])])?;
-        let [full_scale, min, max] = ["sensor_supply.full_scale_v", "sensor_supply.min_v", "sensor_supply.max_v"];
-        self.sensor_supply.validate([(full_scale, [3.0, 50.0]), (min, [2.5, 30.0]), (max, [2.5, 30.0])])?;
-        self.diagnosis.validate()?;
-        self.motion.validate()?;
-        self.jog.validate()?;
-        self.fence.as_ref().map_or(Ok(()), FenceParameters::validate)?;
-        self.dig.as_ref().map_or(Ok(()), DigParameters::validate)?;
-        self.planned_move.as_ref().map_or(Ok(()), MoveParameters::validate)?;
-        self.reach.as_ref().map_or(Ok(()), ReachParameters::validate)?;
-        self.path.as_ref().map_or(Ok(()), PathParameters::validate)?;
-        self.grade.as_ref().map_or(Ok(()), GradeParameters::validate)
+        self.coils.check(checks);
+        self.supply.check(checks, &SUPPLY);
+        self.sensor_supply.check(checks, &SENSOR_SUPPLY);
+        self.diagnosis.check(checks);
+        self.motion.check(checks);
+        self.jog.check(checks);
+        if let Some(fence) = &self.fence {
+            fence.check(checks);
+        }
+        if let Some(dig) = &self.dig {
+            dig.check(checks);
+        }
+        if let Some(planned_move) = &self.planned_move {
+            planned_move.check(checks);
+        }
+        if let Some(reach) = &self.reach {
+            reach.check(checks);
+        }
+        if let Some(path) = &self.path {
+            path.check(checks);
+        }
+        if let Some(grade) = &self.grade {
+            grade.check(checks);
+        }
     }
 }
 
+/// A supply's values by name and range: full scale, lowest, highest.
+type Ranges = [(&'static str, [f64; 2]); 3];
+
+const SUPPLY: Ranges =
+    [("supply.full_scale_v", [10.0, 100.0]), ("supply.min_v", [6.0, 60.0]), ("supply.max_v", [6.0, 60.0])];
+const SENSOR_SUPPLY: Ranges = [
+    ("sensor_supply.full_scale_v", [3.0, 50.0]),
+    ("sensor_supply.min_v", [2.5, 30.0]),
+    ("sensor_supply.max_v", [2.5, 30.0]),
+];
+
 impl Supply {
-    /// Each value by its name and range: full scale, lowest, highest.
-    fn validate(&self, [full_scale, min, max]: [(&'static str, [f64; 2]); 3]) -> Result<(), ParameterError> {
-        within(full_scale.0, self.full_scale_v.into(), full_scale.1)?;
-        within(min.0, self.min_v.into(), min.1)?;
-        within(max.0, self.max_v.into(), max.1)?;
-        ordered((min.0, self.min_v.into()), (max.0, self.max_v.into()))?;
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks, [full_scale, min, max]: &Ranges) {
+        checks.within(full_scale.0, self.full_scale_v, &full_scale.1);
+        checks.within(min.0, self.min_v, &min.1);
+        checks.within(max.0, self.max_v, &max.1);
+        checks.ordered(&[min.0, max.0], [self.min_v.into(), self.max_v.into()]);
         // What the converter cannot say could never be seen to be too high.
-        ordered((max.0, self.max_v.into()), (full_scale.0, self.full_scale_v.into()))
+        checks.ordered(&[max.0, full_scale.0], [self.max_v.into(), self.full_scale_v.into()]);
     }
 }
 
 impl ReachParameters {
-    fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
         let far = [-50.0, 50.0];
-        within("reach.target.x", self.target.x, far)?;
-        within("reach.target.y", self.target.y, far)?;
-        within("reach.target.z", self.target.z, far)?;
-        within("reach.tolerance_m", self.tolerance_m, [0.001, 1.0])?;
+        checks.within("reach.target.x", self.target.x, &far);
+        checks.within("reach.target.y", self.target.y, &far);
+        checks.within("reach.target.z", self.target.z, &far);
+        checks.within("reach.tolerance_m", self.tolerance_m, &[0.001, 1.0]);
         for obstacle in self.obstacles.iter().flatten() {
-            within("reach.obstacle.x", obstacle.x, far)?;
-            within("reach.obstacle.y", obstacle.y, far)?;
-            within("reach.obstacle.z", obstacle.z, far)?;
-            within("reach.obstacle.radius", obstacle.radius, [0.0, 50.0])?;
+            checks.within("reach.obstacle.x", obstacle.x, &far);
+            checks.within("reach.obstacle.y", obstacle.y, &far);
+            checks.within("reach.obstacle.z", obstacle.z, &far);
+            checks.within("reach.obstacle.radius", obstacle.radius, &[0.0, 50.0]);
         }
-        for speed in self.speeds_rad_s {
-            within("reach.speeds_rad_s", speed, [0.001, 4.0])?;
+        for speed in &self.speeds_rad_s {
+            checks.within("reach.speeds_rad_s", *speed, &[0.001, 4.0]);
         }
-        Ok(())
     }
 }
 
 impl MotionParameters {
-    fn validate(&self) -> Result<(), ParameterError> {
-        within("motion.preview_s", self.preview_s.into(), [0.0, 1.0])?;
-        within("motion.gain_per_s", self.gain_per_s.into(), [0.0, 20.0])?;
-        within("motion.smallest_speed_mps", self.smallest_speed_mps.into(), [0.0, 0.1])?;
-        within("motion.start_tolerance_m", self.start_tolerance_m.into(), [0.001, 0.5])?;
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
+        checks.within("motion.preview_s", self.preview_s, &[0.0, 1.0]);
+        checks.within("motion.gain_per_s", self.gain_per_s, &[0.0, 20.0]);
+        checks.within("motion.smallest_speed_mps", self.smallest_speed_mps, &[0.0, 0.1]);
+        checks.within("motion.start_tolerance_m", self.start_tolerance_m, &[0.001, 0.5]);
         // A start farther off than the following error would be a fault in the first tick.
-        within("motion.following_error_m", self.following_error_m.into(), [self.start_tolerance_m.into(), 0.5])?;
-        self.law.as_ref().map_or(Ok(()), LawParameters::validate)
+        checks.within("motion.following_error_m", self.following_error_m, &[self.start_tolerance_m.into(), 0.5]);
+        if let Some(law) = &self.law {
+            law.check(checks);
+        }
     }
 }
 
 impl DigParameters {
-    fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
         let far = [-50.0, 50.0];
-        within("dig.start_x_m", self.start_x_m, far)?;
-        within("dig.start_z_m", self.start_z_m, far)?;
-        within("dig.ground_z_m", self.ground_z_m, far)?;
-        within("dig.reach_m", self.reach_m, [0.01, 50.0])?;
-        within("dig.plunge_m", self.plunge_m, [0.01, 50.0])?;
-        within("dig.scoop_radius_m", self.scoop_radius_m, [0.01, 50.0])?;
-        within("dig.scoop_end_deg", self.scoop_end_deg, [-360.0, 360.0])?;
-        for pitch in self.pitch_deg {
-            within("dig.pitch_deg", pitch, [-720.0, 720.0])?;
+        checks.within("dig.start_x_m", self.start_x_m, &far);
+        checks.within("dig.start_z_m", self.start_z_m, &far);
+        checks.within("dig.ground_z_m", self.ground_z_m, &far);
+        checks.within("dig.reach_m", self.reach_m, &[0.01, 50.0]);
+        checks.within("dig.plunge_m", self.plunge_m, &[0.01, 50.0]);
+        checks.within("dig.scoop_radius_m", self.scoop_radius_m, &[0.01, 50.0]);
+        checks.within("dig.scoop_end_deg", self.scoop_end_deg, &[-360.0, 360.0]);
+        for pitch in &self.pitch_deg {
+            checks.within("dig.pitch_deg", *pitch, &[-720.0, 720.0]);
         }
         let [reached, plunged, end] = self.until_s;
-        within("dig.until_s", end, [0.1, 600.0])?;
-        ordered(("dig.until_s[0]", reached), ("dig.until_s[1]", plunged))?;
-        ordered(("dig.until_s[1]", plunged), ("dig.until_s[2]", end))?;
-        within("dig.hold_lead_s", self.hold_lead_s, [0.0, reached])?;
-        ordered(("0", 0.0), ("dig.until_s[0]", reached))
+        checks.within("dig.until_s", end, &[0.1, 600.0]);
+        checks.ordered(&["dig.until_s[0]", "dig.until_s[1]"], [reached, plunged]);
+        checks.ordered(&["dig.until_s[1]", "dig.until_s[2]"], [plunged, end]);
+        checks.within("dig.hold_lead_s", self.hold_lead_s, &[0.0, reached]);
+        checks.ordered(&["0", "dig.until_s[0]"], [0.0, reached]);
     }
 }
 
 impl MoveParameters {
     /// Limits and weights are checked where the move is planned.
-    fn validate(&self) -> Result<(), ParameterError> {
-        for place in self.start_m.into_iter().chain(self.target_m) {
-            within("move.start_m, move.target_m", place, [-50.0, 50.0])?;
+    #[inline(never)]
+    fn check(&self, checks: &mut Checks) {
+        for place in self.start_m.iter().chain(&self.target_m) {
+            checks.within("move.start_m, move.target_m", *place, &[-50.0, 50.0]);
         }
-        within("move.start_pitch_deg", self.start_pitch_deg, [-720.0, 720.0])?;
-        within("move.turn_per_knot_deg", self.turn_per_knot_deg, [0.01, 90.0])?;
+        checks.within("move.start_pitch_deg", self.start_pitch_deg, &[-720.0, 720.0]);
+        checks.within("move.turn_per_knot_deg", self.turn_per_knot_deg, &[0.01, 90.0]);
         if let Pitch::Bounded { lower_deg, upper_deg } = self.pitch {
-            within("move.lower_deg", lower_deg, [-720.0, self.start_pitch_deg])?;
-            within("move.upper_deg", upper_deg, [self.start_pitch_deg, 720.0])?;
+            checks.within("move.lower_deg", lower_deg, &[-720.0, self.start_pitch_deg]);
+            checks.within("move.upper_deg", upper_deg, &[self.start_pitch_deg, 720.0]);
         }
-        Ok(())
     }
 }

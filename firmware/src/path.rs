@@ -3,7 +3,7 @@
 use kinematics_core::PoseError;
 use serde::{Deserialize, Serialize};
 
-use crate::parameters::{ParameterError, within};
+use crate::parameters::Checks;
 
 /// Knots of a path at most; one less segments.
 pub const KNOTS: usize = 9;
@@ -58,25 +58,23 @@ pub struct PathViolation {
 
 impl PathParameters {
     /// Checks every value; where the path leads is checked when the controller is built.
-    ///
-    /// # Errors
-    /// The first out of its range, by name.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
         let count = self.knots.iter().take_while(|knot| knot.is_some()).count();
-        within("path.knots", count as f64, [2.0, KNOTS as f64])?;
+        checks.within("path.knots", count as f64, &[2.0, KNOTS as f64]);
         let all = self.knots.iter().flatten().count() as f64;
-        within("path.knots", count as f64, [all, all])?;
+        checks.within("path.knots", count as f64, &[all, all]);
         for knot in self.knots.iter().flatten() {
-            within("path.knot.x_m", knot.x_m, [-50.0, 50.0])?;
-            within("path.knot.z_m", knot.z_m, [-50.0, 50.0])?;
-            within("path.knot.pitch_deg", knot.pitch_deg, [-720.0, 720.0])?;
-            within("path.knot.swing_deg", knot.swing_deg, [-720.0, 720.0])?;
+            checks.within("path.knot.x_m", knot.x_m, &[-50.0, 50.0]);
+            checks.within("path.knot.z_m", knot.z_m, &[-50.0, 50.0]);
+            checks.within("path.knot.pitch_deg", knot.pitch_deg, &[-720.0, 720.0]);
+            checks.within("path.knot.swing_deg", knot.swing_deg, &[-720.0, 720.0]);
         }
-        within("path.speed_mps", self.speed_mps, [0.001, 3.0])?;
-        within("path.acceleration_mps2", self.acceleration_mps2, [0.01, 20.0])?;
-        within("path.pitch_speed_deg_s", self.pitch_speed_deg_s, [0.1, 180.0])?;
-        within("path.pitch_acceleration_deg_s2", self.pitch_acceleration_deg_s2, [0.1, 1000.0])?;
-        within("path.swing_speed_deg_s", self.swing_speed_deg_s, [0.1, 180.0])?;
-        within("path.swing_acceleration_deg_s2", self.swing_acceleration_deg_s2, [0.1, 1000.0])
+        checks.within("path.speed_mps", self.speed_mps, &[0.001, 3.0]);
+        checks.within("path.acceleration_mps2", self.acceleration_mps2, &[0.01, 20.0]);
+        checks.within("path.pitch_speed_deg_s", self.pitch_speed_deg_s, &[0.1, 180.0]);
+        checks.within("path.pitch_acceleration_deg_s2", self.pitch_acceleration_deg_s2, &[0.1, 1000.0]);
+        checks.within("path.swing_speed_deg_s", self.swing_speed_deg_s, &[0.1, 180.0]);
+        checks.within("path.swing_acceleration_deg_s2", self.swing_acceleration_deg_s2, &[0.1, 1000.0]);
     }
 }

@@ -88,6 +88,7 @@ pub struct Sensing {
 }
 
 impl Sensing {
+    #[inline(never)]
     pub(crate) fn new(
         swing: &SwingSensor,
         cylinders: &[PositionSensor; 3],

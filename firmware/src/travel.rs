@@ -3,6 +3,7 @@
 use kinematics_core::{Machine, PoseError, Real};
 
 use crate::dig::Dig;
+use crate::pose::cylinders_once;
 
 /// A moment of a dig the machine cannot do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +28,7 @@ pub(crate) fn violation_among<T: Real>(
 ) -> Option<Violation<T>> {
     let end = core::cmp::min(from.saturating_add(count), dig.ticks().saturating_add(1));
     (from..end).find_map(|tick| {
-        let refused = machine.tip_to_cylinders(&dig.at_tick(tick)).err();
+        let refused = cylinders_once(machine, &dig.at_tick(tick)).err();
         refused.map(|error| Violation { time_s: Dig::time_of(tick), error })
     })
 }

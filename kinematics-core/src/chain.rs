@@ -84,7 +84,11 @@ pub struct Chain<T> {
 impl<T: Real> Chain<T> {
     /// The chain of a1 (swing axis to boom pin), a2 boom, a3 arm, a4 bucket; metres, a2…a4 positive.
     pub fn new(a: [f64; 4]) -> Self {
-        let [a1, a2, a3, a4] = a;
+        Self { fixed: FixedChain::new(a), ..Self::without_fine_maps(a) }
+    }
+
+    /// As [`Machine::without_fine_maps`](crate::Machine::without_fine_maps).
+    pub(crate) fn without_fine_maps([a1, a2, a3, a4]: [f64; 4]) -> Self {
         Self {
             a1: T::from_f64(a1),
             a2: T::from_f64(a2),
@@ -97,7 +101,7 @@ impl<T: Real> Chain<T> {
             one_over_a3: T::from_f64(1.0 / a3),
             sum_of_squares: T::from_f64(a2 * a2 + a3 * a3),
             half_over_a2_a3: T::from_f64(0.5 / (a2 * a3)),
-            fixed: FixedChain::new(a),
+            fixed: None,
         }
     }
 

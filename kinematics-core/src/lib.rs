@@ -55,6 +55,7 @@ pub mod isotropic_configurations;
 pub mod isotropy;
 pub mod jacobian;
 pub mod joint_range;
+mod linkages;
 pub mod machine;
 pub mod matrix;
 pub mod payload;

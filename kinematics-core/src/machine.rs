@@ -105,23 +105,39 @@ pub(crate) fn bucket_open<T>(gap: Gap<T>) -> PoseError<T> {
     PoseError::NoAssembly { cylinder: Cylinder::Bucket, by: gap.0 }
 }
 
+/// a1…a4
+fn links(g: &PinGeometry) -> [f64; 4] {
+    [g.boom_pin_x_m, g.boom_m, g.arm_m, g.bucket_m]
+}
+
 impl<T: Real> Machine<T> {
     /// Validates the geometry and derives the constants.
     ///
     /// # Errors
     /// The first problem of the geometry, named by its field.
     pub fn new(geometry: &PinGeometry) -> Result<Self, GeometryError> {
+        let quick = Self::without_fine_maps(geometry)?;
+        Ok(Self { chain: Chain::new(links(geometry)), fixed: FixedKernel::new(geometry), ..quick })
+    }
+
+    /// [`Machine::new`] without the constants of the maps in fixed point, which take code to derive that a controller has no use for.
+    /// [`Machine::cylinders_to_tip_with_fine_jacobian`], [`Machine::cylinder_bias`] and [`Chain::fine_swing_jacobian`] then answer as for a
+    /// geometry out of fixed point's range; every other map is the same, bit for bit.
+    ///
+    /// # Errors
+    /// As [`Machine::new`].
+    pub fn without_fine_maps(geometry: &PinGeometry) -> Result<Self, GeometryError> {
         geometry.validate()?;
         let g = geometry;
         Ok(Self {
             boom: Triangle::new(g.boom.base, g.boom.rod, g.boom_cylinder.side(), 1.0),
             arm: Triangle::new(g.arm_base_from_pin(), g.arm.rod, Side::Clockwise, 1.0),
             bucket: g.four_bar(),
-            chain: Chain::new([g.boom_pin_x_m, g.boom_m, g.arm_m, g.bucket_m]),
+            chain: Chain::without_fine_maps(links(g)),
             strokes: [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(StrokeCheck::new),
             sectors: g.sectors()?,
             swing: g.swing.as_ref().map(SwingCylinder::from_pins),
-            fixed: FixedKernel::new(g),
+            fixed: None,
         })
     }
 

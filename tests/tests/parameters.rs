@@ -7,6 +7,8 @@ use firmware::law::LawParameters;
 use firmware::moves::{MoveParameters, Pitch};
 use firmware::parameters::ReachParameters;
 use firmware::path::PathParameters;
+use firmware::store::copy::HEADER_BYTES;
+use firmware::store::{Bucket, MAX_BUCKETS, Name, Sealed, StoredRecord, parameters_from};
 use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
@@ -129,6 +131,23 @@ fn the_record_fits_the_link_and_survives_its_own_bytes() {
         println!("{name}: {} bytes", bytes.len());
         assert!(bytes.len() <= firmware::simulated::link::RECORD_BYTES);
         assert_eq!(postcard::from_bytes::<Parameters>(&bytes).unwrap(), parameters);
+        assert_eq!(parameters_from(&bytes), Some(parameters));
+        for length in 0..bytes.len() {
+            assert_eq!(parameters_from(&bytes[..length]), None, "{name}: the first {length} bytes");
+        }
+        // Places with a bucket and without.
+        let bucket = Bucket {
+            name: Name::new("own").unwrap(),
+            bucket_m: parameters.geometry.bucket_m,
+            coupler_pin: parameters.geometry.bucket.coupler_pin,
+            coupler_m: parameters.geometry.bucket.coupler_m,
+        };
+        let mut buckets = [None; MAX_BUCKETS];
+        buckets[..2].copy_from_slice(&[Some(bucket); 2]);
+        let record =
+            StoredRecord { machine: Name::new(&name[..name.len().min(16)]).unwrap(), parameters, buckets, mounted: 1 };
+        let sealed = Sealed::new(&record).unwrap();
+        assert_eq!(&sealed.as_bytes()[HEADER_BYTES..], postcard::to_stdvec(&record).unwrap());
     }
 }
 

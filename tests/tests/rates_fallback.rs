@@ -28,7 +28,10 @@ fn poses(g: &PinGeometry) -> Vec<[f64; 3]> {
 
 /// At how many of the poses fine and plain maps differ: tip and cylinder-space Jacobian, and the four-joint Jacobians.
 fn differences<T: Real>(g: &PinGeometry) -> [usize; 2] {
-    let machine = Machine::<T>::new(g).unwrap();
+    differences_of(&Machine::<T>::new(g).unwrap(), g)
+}
+
+fn differences_of<T: Real>(machine: &Machine<T>, g: &PinGeometry) -> [usize; 2] {
     let swing = Rotor::from_turns(T::from_f64(0.3));
     let mut differ = [0; 2];
     for at in poses(g) {
@@ -53,6 +56,21 @@ fn out_of_range_the_fine_maps_are_the_plain_ones_bit_for_bit() {
     assert!(kernel > 990 && chain > 500, "{kernel} {chain}");
     // The chain's range is its own.
     assert!(differences::<f32>(&short_crank())[1] > 500);
+}
+
+#[test]
+fn without_fine_maps_they_are_the_plain_ones_and_every_other_map_is_the_same() {
+    for (name, g) in machines::all().unwrap() {
+        let [whole, without] = [Machine::<f32>::new(&g), Machine::without_fine_maps(&g)].map(Result::unwrap);
+        assert_eq!(differences_of(&without, &g), [0, 0], "{name}");
+        let swing = Rotor::from_turns(0.3);
+        for at in poses(&g).into_iter().map(cylinders) {
+            let plain = |machine: &Machine<f32>| machine.cylinders_to_tip_with_jacobian(&at, swing).unwrap();
+            assert_eq!(plain(&whole), plain(&without), "{name}");
+            let back = |machine: &Machine<f32>| machine.tip_to_cylinders(&plain(machine).0.plane);
+            assert_eq!(back(&whole), back(&without), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -132,10 +132,12 @@ impl Name {
             Self::CONSTRUCTION,
             0,
         ];
-        for (signal, value) in ADDRESS_CLAIMED.signals.iter().zip(codes) {
+        // Named here, for the table has no names in an image for a board; the codes after these fit.
+        let fields = ["Identity", "Manufacturer", "EcuInstance", "FunctionInstance"];
+        for ((signal, field), value) in ADDRESS_CLAIMED.signals.iter().zip(fields).zip(codes) {
             let highest = signal.not_available();
             if value > highest {
-                return Err(AddressError::TooHigh { field: signal.name, value, highest });
+                return Err(AddressError::TooHigh { field, value, highest });
             }
         }
         Ok(ADDRESS_CLAIMED.pack(codes))

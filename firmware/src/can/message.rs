@@ -3,7 +3,7 @@
 use super::frame::CanFrame;
 use super::id::Identifier;
 use super::protect;
-use super::signal::{Signal, Unusable};
+use super::signal::{Signal, Unusable, Word};
 
 /// Who sends a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,9 +54,9 @@ pub enum Rate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Header {
     /// In CamelCase.
-    pub name: &'static str,
+    pub name: Word,
     /// What it is for.
-    pub about: &'static str,
+    pub about: Word,
     /// Parameter group number.
     pub pgn: u32,
     /// 0…7.
@@ -107,6 +107,16 @@ impl Header {
     }
 }
 
+impl Header {
+    /// The frame of a sender at this address; a protected message gets the counter and its CRC.
+    #[inline(never)]
+    pub fn frame(&self, source: u8, counter: u8, payload: u64) -> CanFrame {
+        let id = self.identifier(source);
+        let payload = if self.protected { protect::seal(id, counter, payload) } else { payload };
+        CanFrame::of_payload(id.extended(), payload)
+    }
+}
+
 impl<const N: usize> Message<N> {
     /// For tables.
     pub const fn entry(&'static self) -> Entry {
@@ -115,7 +125,7 @@ impl<const N: usize> Message<N> {
 
     /// The payload with these codes, unused bits one.
     pub fn pack(&self, codes: [u32; N]) -> u64 {
-        self.signals.iter().zip(codes).fold(u64::MAX, |payload, (signal, code)| signal.put(payload, code))
+        pack(&self.signals, &codes)
     }
 
     /// Every signal's code.
@@ -125,13 +135,12 @@ impl<const N: usize> Message<N> {
 
     /// The payload with these values; a value that cannot be sent becomes its signal's error code.
     pub fn encode(&self, values: [f32; N]) -> u64 {
-        let values = self.signals.iter().zip(values);
-        values.fold(u64::MAX, |payload, (signal, value)| signal.put(payload, signal.code(value)))
+        encode(&self.signals, &values)
     }
 
     /// The payload that says of every signal that it is at fault.
     pub fn faulty(&self) -> u64 {
-        self.signals.iter().fold(u64::MAX, |payload, signal| signal.put(payload, signal.error()))
+        faulty(&self.signals)
     }
 
     /// Every signal's value, or why there is none.
@@ -139,10 +148,25 @@ impl<const N: usize> Message<N> {
         self.signals.each_ref().map(|signal| signal.value(signal.code_in(payload)))
     }
 
-    /// The frame of a sender at this address; a protected message gets the counter and its CRC.
+    /// As [`Header::frame`].
     pub fn frame(&self, source: u8, counter: u8, payload: u64) -> CanFrame {
-        let id = self.header.identifier(source);
-        let payload = if self.header.protected { protect::seal(id, counter, payload) } else { payload };
-        CanFrame::of_payload(id.extended(), payload)
+        self.header.frame(source, counter, payload)
     }
+}
+
+// An image holds these once, and not for every number of signals.
+
+#[inline(never)]
+fn pack(signals: &[Signal], codes: &[u32]) -> u64 {
+    signals.iter().zip(codes).fold(u64::MAX, |payload, (signal, &code)| signal.put(payload, code))
+}
+
+#[inline(never)]
+fn encode(signals: &[Signal], values: &[f32]) -> u64 {
+    signals.iter().zip(values).fold(u64::MAX, |payload, (signal, &value)| signal.put(payload, signal.code(value)))
+}
+
+#[inline(never)]
+fn faulty(signals: &[Signal]) -> u64 {
+    signals.iter().fold(u64::MAX, |payload, signal| signal.put(payload, signal.error()))
 }

@@ -24,6 +24,7 @@ impl Node {
     ///
     /// # Errors
     /// An address or a field of the NAME, by name and range.
+    #[inline(never)]
     pub fn new(addresses: Addresses, name: &Name) -> Result<Self, AddressError> {
         addresses.validate()?;
         let own = addresses.own;
@@ -42,6 +43,7 @@ impl Node {
     }
 
     /// Takes a frame in.
+    #[inline(never)]
     pub fn receive(&mut self, frame: &CanFrame) {
         let id = Identifier::of(frame.extended_id());
         self.claim.receive(id, frame);
@@ -64,6 +66,7 @@ impl Node {
     }
 
     /// The frames to send this tick.
+    #[inline(never)]
     pub fn due(&mut self, outputs: &Outputs, active: ActiveFaults) -> Due {
         let mut due = [None; 3];
         let claim = self.claim.due();

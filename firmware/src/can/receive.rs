@@ -1,6 +1,7 @@
 //! Whether a received message may be used. Each message has its own watch; no message's state touches another's.
 
 use super::message::Header;
+use super::signal::{Word, states};
 use super::{frame::CanFrame, id::Identifier, protect};
 
 /// A counter may miss this many messages and still count as moving on: five fill the timeout.
@@ -28,8 +29,14 @@ pub enum Validity {
 
 impl Validity {
     /// Codes and names on the bus.
-    pub const NAMES: [(u32, &'static str); 6] =
-        [(0, "fresh"), (1, "stale"), (2, "short"), (3, "bad_checksum"), (4, "frozen_counter"), (5, "out_of_range")];
+    pub const NAMES: [(u32, Word); 6] = states([
+        (0, "fresh"),
+        (1, "stale"),
+        (2, "short"),
+        (3, "bad_checksum"),
+        (4, "frozen_counter"),
+        (5, "out_of_range"),
+    ]);
 
     /// As on the bus.
     pub const fn code(self) -> u32 {
@@ -46,11 +53,17 @@ pub struct Reading<T> {
     pub validity: Validity,
 }
 
-/// One message's watch.
+/// One message: its last value, while it may be used.
 #[derive(Clone, Copy, Debug)]
 pub struct Received<T> {
-    timeout_ticks: u16,
     value: Option<T>,
+    watch: Watch,
+}
+
+/// The watch over one message, whatever it says.
+#[derive(Clone, Copy, Debug)]
+struct Watch {
+    timeout_ticks: u16,
     /// Ticks since the last good message, at most the timeout.
     age: u16,
     /// Ticks since the last message of any kind, at most the timeout.
@@ -61,42 +74,16 @@ pub struct Received<T> {
     in_a_row: u8,
 }
 
-impl<T: Copy> Received<T> {
-    pub(crate) const fn new(timeout_ticks: u16) -> Self {
-        Self {
-            timeout_ticks,
-            value: None,
-            age: timeout_ticks,
-            silence: timeout_ticks,
-            reason: Validity::Stale,
-            last_counter: None,
-            in_a_row: 0,
-        }
-    }
-
-    /// Takes a frame of this message in; true when it was good. One that cannot be trusted leaves the value as it was, to run out.
-    pub(crate) fn take<E>(
-        &mut self,
-        header: &Header,
-        id: Identifier,
-        frame: &CanFrame,
-        decode: impl FnOnce(u64) -> Result<T, E>,
-    ) -> bool {
+impl Watch {
+    /// The payload of a frame of this message that can be trusted. An image holds this once, and not for every kind of value.
+    #[inline(never)]
+    fn trusted(&mut self, header: &Header, id: Identifier, frame: &CanFrame) -> Result<u64, Validity> {
         self.silence = 0;
-        let trusted = match frame.payload() {
+        match frame.payload() {
             None => Err(Validity::Short),
             Some(payload) if header.protected => self.check(id, payload),
             Some(payload) => Ok(payload),
-        };
-        match trusted.map(decode) {
-            Ok(Ok(value)) => {
-                (self.value, self.age, self.reason) = (Some(value), 0, Validity::Stale);
-                return true;
-            }
-            Ok(Err(_)) => (self.value, self.reason) = (None, Validity::OutOfRange),
-            Err(reason) => self.reason = reason,
         }
-        false
     }
 
     /// CRC and counter.
@@ -118,26 +105,61 @@ impl<T: Copy> Received<T> {
         }
         if self.in_a_row < TRUSTED { Err(self.reason) } else { Ok(payload) }
     }
+}
+
+impl<T: Copy> Received<T> {
+    pub(crate) const fn new(timeout_ticks: u16) -> Self {
+        let watch = Watch {
+            timeout_ticks,
+            age: timeout_ticks,
+            silence: timeout_ticks,
+            reason: Validity::Stale,
+            last_counter: None,
+            in_a_row: 0,
+        };
+        Self { value: None, watch }
+    }
+
+    /// Takes a frame of this message in; true when it was good. One that cannot be trusted leaves the value as it was, to run out.
+    pub(crate) fn take<E>(
+        &mut self,
+        header: &Header,
+        id: Identifier,
+        frame: &CanFrame,
+        decode: impl FnOnce(u64) -> Result<T, E>,
+    ) -> bool {
+        let Self { value, watch } = self;
+        match watch.trusted(header, id, frame).map(decode) {
+            Ok(Ok(good)) => {
+                (*value, watch.age, watch.reason) = (Some(good), 0, Validity::Stale);
+                return true;
+            }
+            Ok(Err(_)) => (*value, watch.reason) = (None, Validity::OutOfRange),
+            Err(reason) => watch.reason = reason,
+        }
+        false
+    }
 
     /// A tick has passed.
     pub(crate) fn aged(&mut self) {
-        if self.age < self.timeout_ticks {
-            self.age += 1;
-            if self.age == self.timeout_ticks {
-                (self.value, self.in_a_row) = (None, 0);
+        let Self { value, watch } = self;
+        if watch.age < watch.timeout_ticks {
+            watch.age += 1;
+            if watch.age == watch.timeout_ticks {
+                (*value, watch.in_a_row) = (None, 0);
             }
         }
-        if self.silence < self.timeout_ticks {
-            self.silence += 1;
+        if watch.silence < watch.timeout_ticks {
+            watch.silence += 1;
         }
-        if self.silence == self.timeout_ticks {
-            (self.reason, self.last_counter) = (Validity::Stale, None);
+        if watch.silence == watch.timeout_ticks {
+            (watch.reason, watch.last_counter) = (Validity::Stale, None);
         }
     }
 
     /// Whether the value may be used.
     pub fn validity(&self) -> Validity {
-        if self.value.is_some() { Validity::Fresh } else { self.reason }
+        if self.value.is_some() { Validity::Fresh } else { self.watch.reason }
     }
 
     /// The value and its validity.

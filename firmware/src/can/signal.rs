@@ -1,13 +1,46 @@
 //! A signal's place in a payload and its meaning, as J1939-71 writes them: little-endian, linear, with codes that mean "error" and
 //! "not available".
 
+/// A word of the tables, for the pages and data bases that a host writes from them.
+#[cfg(not(target_os = "none"))]
+pub type Word = &'static str;
+
+/// A word of the tables: an image for a board holds none of them.
+#[cfg(target_os = "none")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Word;
+
+/// The words of the tables.
+#[cfg(not(target_os = "none"))]
+pub(crate) const fn words(text: &'static str) -> Word {
+    text
+}
+
+/// The words of the tables.
+#[cfg(target_os = "none")]
+pub(crate) const fn words(_: &'static str) -> Word {
+    Word
+}
+
+/// A signal's states by their codes.
+pub(crate) const fn states<const N: usize>(states: [(u32, &'static str); N]) -> [(u32, Word); N] {
+    let mut named = [(0, words("")); N];
+    let mut i = 0;
+    while i < N {
+        let (code, name) = states[i];
+        named[i] = (code, words(name));
+        i += 1;
+    }
+    named
+}
+
 /// What the codes of a signal mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A linear number of 8, 16 or 24 bits: codes to FAₕ… count, FEₕ… is an error, FFₕ… not available, others reserved.
     Measured,
     /// Named states; the highest code is "not available", the one below "error", other codes without a name reserved.
-    States(&'static [(u32, &'static str)]),
+    States(&'static [(u32, Word)]),
     /// Every code counts.
     Bits,
 }
@@ -20,14 +53,14 @@ pub struct Scale {
     /// Value of code 0.
     pub offset: f32,
     /// Unit, as in a DBC file.
-    pub unit: &'static str,
+    pub unit: Word,
 }
 
 /// One signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
     /// In CamelCase, unique in its message.
-    pub name: &'static str,
+    pub name: Word,
     /// Lowest bit: 0 is the lowest of byte 1, 8 of byte 2.
     pub start: u8,
     /// Bits, at most 32.
@@ -51,12 +84,7 @@ pub enum Unusable {
     OutOfRange,
 }
 
-/// A word of the tables, for the pages and data bases that a host writes from them: an image for a board holds none of them.
-pub(super) const fn words(text: &'static str) -> &'static str {
-    if cfg!(target_os = "none") { "" } else { text }
-}
-
-const UNSCALED: Scale = Scale { factor: 1.0, offset: 0.0, unit: "" };
+const UNSCALED: Scale = Scale { factor: 1.0, offset: 0.0, unit: words("") };
 
 impl Signal {
     /// A number.
@@ -66,7 +94,7 @@ impl Signal {
     }
 
     /// Named states.
-    pub const fn states(name: &'static str, start: u8, length: u8, states: &'static [(u32, &'static str)]) -> Self {
+    pub const fn states(name: &'static str, start: u8, length: u8, states: &'static [(u32, Word)]) -> Self {
         let highest = ((1_u64 << length) - 1) as f32;
         Self { name: words(name), start, length, kind: Kind::States(states), scale: UNSCALED, range: [0.0, highest] }
     }
@@ -74,7 +102,7 @@ impl Signal {
     /// Plain bits.
     pub const fn bits(name: &'static str, start: u8, length: u8) -> Self {
         let highest = ((1_u64 << length) - 1) as f32;
-        Self { name, start, length, kind: Kind::Bits, scale: UNSCALED, range: [0.0, highest] }
+        Self { name: words(name), start, length, kind: Kind::Bits, scale: UNSCALED, range: [0.0, highest] }
     }
 
     /// The highest code.

@@ -64,6 +64,7 @@ pub struct Diagnosis {
 
 impl Diagnosis {
     /// Of valid parameters, and what a code of each sensor is worth (swing, boom, arm, bucket), m or rad.
+    #[inline(never)]
     pub fn new(p: &DiagnosisParameters, views: [SensorView; 4]) -> Self {
         let mut views = views.into_iter();
         let model = Model::new(p);

@@ -7,8 +7,7 @@ use kinematics_core::planning::limits::{HALF_SPACES, Limits, SPHERES, SwingRange
 use kinematics_core::planning::outline::OutlineShape;
 use serde::{Deserialize, Serialize};
 
-use crate::apart::apart;
-use crate::parameters::{ParameterError, ordered, within};
+use crate::parameters::Checks;
 
 /// What the fence checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,18 +50,14 @@ pub struct SwingRangeParameters {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FenceParameters {
     /// Ceiling, floor, walls.
-    #[serde(deserialize_with = "apart")]
     pub planes: [Option<PlaneParameters>; HALF_SPACES],
     /// Points and balls.
-    #[serde(deserialize_with = "apart")]
     pub balls: [Option<BallParameters>; SPHERES],
     /// The swing's range.
-    #[serde(deserialize_with = "apart")]
     pub swing: Option<SwingRangeParameters>,
     /// Height of the boom pin above the ground, m.
     pub boom_pin_height_m: f64,
     /// Sizes of the linkage's outline.
-    #[serde(deserialize_with = "apart")]
     pub outline: OutlineShape,
     /// What it checks.
     pub guards: Guards,
@@ -83,32 +78,33 @@ pub struct FenceParameters {
 }
 
 impl FenceParameters {
-    pub(crate) fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
         let far = [-1000.0, 1000.0];
         for plane in self.planes.iter().flatten() {
             let [x, y, z] = plane.normal;
-            within("fence.planes.normal", Real::sqrt(x * x + y * y + z * z), [0.999, 1.001])?;
-            within("fence.planes.offset_m", plane.offset_m, far)?;
+            checks.within("fence.planes.normal", Real::sqrt(x * x + y * y + z * z), &[0.999, 1.001]);
+            checks.within("fence.planes.offset_m", plane.offset_m, &far);
         }
         for ball in self.balls.iter().flatten() {
-            for x in ball.centre_m {
-                within("fence.balls.centre_m", x, far)?;
+            for x in &ball.centre_m {
+                checks.within("fence.balls.centre_m", *x, &far);
             }
-            within("fence.balls.radius_m", ball.radius_m, [0.0, 100.0])?;
+            checks.within("fence.balls.radius_m", ball.radius_m, &[0.0, 100.0]);
         }
         if let Some(SwingRangeParameters { right_deg, left_deg }) = self.swing {
-            within("fence.swing.right_deg", right_deg, [-179.0, 179.0])?;
-            within("fence.swing.left_deg", left_deg, [-179.0, 179.0])?;
-            ordered(("fence.swing.right_deg", right_deg), ("fence.swing.left_deg", left_deg))?;
+            checks.within("fence.swing.right_deg", right_deg, &[-179.0, 179.0]);
+            checks.within("fence.swing.left_deg", left_deg, &[-179.0, 179.0]);
+            checks.ordered(&["fence.swing.right_deg", "fence.swing.left_deg"], [right_deg, left_deg]);
         }
-        within("fence.boom_pin_height_m", self.boom_pin_height_m, far)?;
-        within("fence.margin_m", self.margin_m.into(), [0.0, 5.0])?;
-        within("fence.deceleration_mps2", self.deceleration_mps2.into(), [0.01, 20.0])?;
-        within("fence.reaction_s", self.reaction_s.into(), [0.002, 2.0])?;
-        within("fence.swing_margin_rad", self.swing_margin_rad.into(), [0.0, 1.0])?;
-        within("fence.swing_deceleration_rad_s2", self.swing_deceleration_rad_s2.into(), [0.01, 20.0])?;
-        within("fence.dead_time_s", self.dead_time_s.into(), [0.0, 0.5])?;
-        within("fence.lag_s", self.lag_s.into(), [0.0, 1.0])
+        checks.within("fence.boom_pin_height_m", self.boom_pin_height_m, &far);
+        checks.within("fence.margin_m", self.margin_m, &[0.0, 5.0]);
+        checks.within("fence.deceleration_mps2", self.deceleration_mps2, &[0.01, 20.0]);
+        checks.within("fence.reaction_s", self.reaction_s, &[0.002, 2.0]);
+        checks.within("fence.swing_margin_rad", self.swing_margin_rad, &[0.0, 1.0]);
+        checks.within("fence.swing_deceleration_rad_s2", self.swing_deceleration_rad_s2, &[0.01, 20.0]);
+        checks.within("fence.dead_time_s", self.dead_time_s, &[0.0, 0.5]);
+        checks.within("fence.lag_s", self.lag_s, &[0.0, 1.0]);
     }
 
     /// What it keeps clear of.

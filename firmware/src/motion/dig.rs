@@ -9,6 +9,7 @@ use crate::TICKS_PER_S;
 use crate::dig::Dig;
 use crate::fault::Fault;
 use crate::parameters::MotionParameters;
+use crate::pose::cylinders_once;
 
 #[derive(Clone, Copy, Debug)]
 enum Mode {
@@ -42,7 +43,7 @@ impl DigFollower {
         dig: Dig<f32>,
         delays: &mut Delays,
     ) -> Option<Self> {
-        let start = machine.tip_to_cylinders(&dig.at_tick(0)).ok()?;
+        let start = cylinders_once(machine, &dig.at_tick(0)).ok()?;
         let preview_ticks = preview_ticks(p);
         delays.set_dig(preview_ticks, [start.boom, start.arm, start.bucket]);
         let dig_ticks = dig.ticks();

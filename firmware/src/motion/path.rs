@@ -11,6 +11,7 @@ use super::resolve::resolve;
 use super::sum::Sum;
 use crate::fault::Fault;
 use crate::path::{KNOTS, Knot, PathParameters, PathViolation};
+use crate::pose::cylinders_once;
 use crate::{TICK_S, TICKS_PER_S};
 
 /// Places of a segment that are tried before anything moves.
@@ -113,7 +114,7 @@ impl PathFollower {
         for (number, segment) in segments.iter().flatten().enumerate() {
             for i in 0..=TRIED {
                 let place = segment.place(i as f32 / TRIED as f32);
-                let lengths = machine.tip_to_cylinders(&tip(place));
+                let lengths = cylinders_once(machine, &tip(place));
                 let lengths = lengths.map_err(|error| PathViolation { segment: number, error })?;
                 if (number, i) == (0, 0) {
                     start = lengths;

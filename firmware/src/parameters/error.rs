@@ -1,4 +1,4 @@
-//! What can be wrong with a parameter record, and the two checks that say so.
+//! What can be wrong with a parameter record, and the checks that say so.
 
 use core::fmt;
 
@@ -77,4 +77,43 @@ pub(crate) fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result
 
 pub(crate) fn ordered(below: (&'static str, f64), above: (&'static str, f64)) -> Result<(), ParameterError> {
     if below.1 < above.1 { Ok(()) } else { Err(ParameterError::Order { below: below.0, above: above.0 }) }
+}
+
+/// Checks values one after the other and keeps the first error. Nothing is returned between two checks: looking at every result would take
+/// more of the flash than the checks themselves.
+pub(crate) struct Checks(Result<(), ParameterError>);
+
+impl Checks {
+    pub(crate) const fn new() -> Self {
+        Self(Ok(()))
+    }
+
+    /// Whether all were in order, or the first that was not.
+    pub(crate) const fn done(self) -> Result<(), ParameterError> {
+        self.0
+    }
+
+    /// A value in its range.
+    #[inline(never)]
+    pub(crate) fn within(&mut self, field: &'static str, value: impl Into<f64>, range: &[f64; 2]) {
+        self.judge(field, value.into(), range);
+    }
+
+    #[inline(never)]
+    fn judge(&mut self, field: &'static str, value: f64, range: &[f64; 2]) {
+        self.and(within(field, value, *range));
+    }
+
+    /// The value of the first field below that of the second.
+    #[inline(never)]
+    pub(crate) fn ordered(&mut self, [below, above]: &[&'static str; 2], [low, high]: [f64; 2]) {
+        self.and(ordered((*below, low), (*above, high)));
+    }
+
+    /// Another check.
+    pub(crate) fn and(&mut self, checked: Result<(), ParameterError>) {
+        if self.0.is_ok() {
+            self.0 = checked;
+        }
+    }
 }

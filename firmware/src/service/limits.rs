@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::calibration::valve_search::ValveSearchParameters;
 use crate::io::{Solenoids, limited};
-use crate::parameters::{ParameterError, Parameters, PositionSensor, SwingSensor, within};
+use crate::parameters::{Checks, Parameters, PositionSensor, SwingSensor};
 use crate::valve::flow_map::FlowParameters;
 
 /// Without a limit of its own a jog gets the dead band and this share of full-scale current.
@@ -21,8 +21,11 @@ impl JogParameters {
     /// Each direction's own limit.
     pub const DEFAULT: Self = Self { max_current_a: None };
 
-    pub(crate) fn validate(&self) -> Result<(), ParameterError> {
-        self.max_current_a.map_or(Ok(()), |max_a| within("jog.max_current_a", max_a.into(), [0.05, 3.0]))
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        if let Some(max_a) = self.max_current_a {
+            checks.within("jog.max_current_a", max_a, &[0.05, 3.0]);
+        }
     }
 }
 

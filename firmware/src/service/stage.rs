@@ -73,6 +73,7 @@ pub struct Service {
 
 impl Service {
     /// Of valid parameters.
+    #[inline(never)]
     pub(crate) fn new(parameters: &Parameters) -> Self {
         Self {
             limits: SpoolLimits::all(parameters),
@@ -111,6 +112,7 @@ impl Service {
     }
 
     /// Hears the command; true when this tick is the service's.
+    #[inline(never)]
     pub(crate) fn hear(&mut self, inputs: &Inputs, now: &Situation) -> bool {
         if self.run == Run::Idle {
             match asked(inputs) {
@@ -176,6 +178,7 @@ impl Service {
     }
 
     /// What the supervisor and the sensing are to see of this tick's inputs, and what drives: a spool and its signed current, A.
+    #[inline(never)]
     pub(crate) fn before(&mut self, inputs: &mut Inputs) -> Option<(usize, f32)> {
         match self.run {
             Run::Idle => None,
@@ -262,6 +265,7 @@ impl Service {
     }
 
     /// What the supervisor made of it.
+    #[inline(never)]
     pub(crate) fn after(&mut self, gate: Gate, state: State) {
         match (self.run, gate) {
             (Run::Waiting, Gate::Open) => (self.run, self.answer.phase) = (Run::Driving, Phase::UnderWay),

@@ -5,7 +5,7 @@
 //! 4  format version        20  approval: CRC-32C of version, length and data; FFFFFFFFh while nobody signed it off
 //! 8  sequence number       24  FFFFFFFFh, reserved
 //! 12 length of the data    28  CRC-32 of the 28 bytes before
-//! 32 the data: StoredRecord as postcard
+//! 32 the data: StoredRecord as postcard writes it, see `fields` and `layout`
 //! ```
 //! All words little-endian. The header's own CRC is programmed last: until it is there, there is no copy.
 
@@ -13,7 +13,9 @@ use core::fmt;
 
 use crc::{CRC_32_ISCSI, CRC_32_ISO_HDLC, Crc, NoTable};
 
+use super::fields::{Field, Sink, Source};
 use super::record::{RecordError, StoredRecord};
+use crate::parameters::Parameters;
 
 /// Bytes of the header: a multiple of what any flash in question programs at once.
 pub const HEADER_BYTES: usize = 32;
@@ -101,7 +103,9 @@ impl Sealed {
         let mut bytes = [0xff; COPY_BYTES];
         let full = CopyFault::Length { found: DATA_BYTES as u32 };
         let room = bytes.get_mut(HEADER_BYTES..).ok_or(full)?;
-        let length = postcard::to_slice(record, room).map_err(|_| full)?.len();
+        let mut data = Sink::new(room);
+        record.write(&mut data);
+        let length = data.length().ok_or(full)?;
         let mut copy = Self { bytes, length };
         copy.write_header(0, false);
         Ok(copy)
@@ -231,12 +235,18 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, CopyFault> {
     if CRC.checksum(data) != header.data_crc {
         return Err(CopyFault::Data);
     }
-    // By reference from where it was read: moved out, the stack may hold it twice.
-    let taken = postcard::take_from_bytes::<StoredRecord>(data);
-    let (record, rest) = taken.as_ref().map_err(|_| CopyFault::Malformed)?;
-    if !rest.is_empty() {
+    let mut source = Source::new(data);
+    let record = StoredRecord::read(&mut source);
+    if source.rest() != Some(&[]) {
         return Err(CopyFault::Malformed);
     }
     record.validate().map_err(CopyFault::Record)?;
-    Ok(Decoded { record: *record, sequence: header.sequence, approved: header.approves(data) })
+    Ok(Decoded { record, sequence: header.sequence, approved: header.approves(data) })
+}
+
+/// Parameters alone, written as in the record's data, whatever follows them; not validated. `None` when they are none.
+pub fn parameters_from(bytes: &[u8]) -> Option<Parameters> {
+    let mut source = Source::new(bytes);
+    let parameters = Parameters::read(&mut source);
+    source.rest().map(|_| parameters)
 }

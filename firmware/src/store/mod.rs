@@ -5,9 +5,11 @@
 //! - [`Store`] — two copies over embedded-storage's `NorFlash`, written so that a power cut at any byte leaves one.
 
 pub mod copy;
+mod fields;
 mod flash;
+mod layout;
 mod record;
 
-pub use copy::{CopyFault, Decoded, Sealed};
+pub use copy::{CopyFault, Decoded, Sealed, parameters_from};
 pub use flash::{FlashFit, LoadError, Loaded, OtherCopy, Store, WriteError};
 pub use record::{Bucket, MAX_BUCKETS, Name, RecordError, StoredRecord};

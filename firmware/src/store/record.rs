@@ -5,7 +5,7 @@ use core::fmt;
 use kinematics_core::{PinGeometry, Vec2};
 use serde::{Deserialize, Serialize};
 
-use crate::apart::apart;
+use super::fields::{Field, Sink, Source};
 use crate::parameters::{ParameterError, Parameters};
 
 /// Buckets a record has room for.
@@ -35,6 +35,16 @@ impl Name {
     }
 }
 
+impl Field for Name {
+    fn read(from: &mut Source) -> Self {
+        Self(Field::read(from))
+    }
+
+    fn write(&self, to: &mut Sink) {
+        self.0.write(to);
+    }
+}
+
 impl fmt::Debug for Name {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?}", self.text().unwrap_or("?"))
@@ -60,10 +70,8 @@ pub struct StoredRecord {
     /// The machine's name.
     pub machine: Name,
     /// The parameters; of the bucket's geometry the chosen bucket's counts.
-    #[serde(deserialize_with = "apart")]
     pub parameters: Parameters,
     /// The buckets.
-    #[serde(deserialize_with = "apart")]
     pub buckets: [Option<Bucket>; MAX_BUCKETS],
     /// The one that is mounted.
     pub mounted: u8,

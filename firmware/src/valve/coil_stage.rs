@@ -14,7 +14,7 @@ use super::spool::{Now, Shared, Spool};
 use crate::constants::Constant;
 use crate::io::{Solenoids, Speeds};
 use crate::near::near;
-use crate::parameters::{Coil, ParameterError, ValveDirection, within};
+use crate::parameters::{Checks, Coil, ParameterError, ValveDirection};
 use crate::supervisor::Gate;
 
 /// A spool's parameters.
@@ -86,23 +86,21 @@ impl CoilStageParameters {
     }
 
     /// Checks every value.
-    ///
-    /// # Errors
-    /// The first at fault, by name and range.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
         for spool in &self.spools {
-            spool.flow.iter().try_for_each(FlowParameters::validate)?;
-            spool.ramp.iter().try_for_each(RampParameters::validate)?;
-            spool.dither.validate()?;
+            spool.flow.iter().for_each(|flow| flow.check(checks));
+            spool.ramp.iter().for_each(|ramp| ramp.check(checks));
+            spool.dither.check(checks);
         }
-        self.coil.validate()?;
-        self.watch.validate()?;
-        within("current_sense.zero_code", self.sense.zero_code.into(), [0.0, 16384.0])?;
+        self.coil.check(checks);
+        self.watch.check(checks);
+        checks.within("current_sense.zero_code", self.sense.zero_code, &[0.0, 16384.0]);
         // An excess must lie inside what the converter can say.
         let visible = (64880.0 - f64::from(self.sense.zero_code)) / 65536.0;
         let least = f64::from(self.watch.over_current_a) / visible;
-        within("current_sense.full_scale_a", self.sense.full_scale_a.into(), [least, 50.0])?;
-        within("released_a", self.released_a.into(), [0.005, 0.5])
+        checks.within("current_sense.full_scale_a", self.sense.full_scale_a, &[least, 50.0]);
+        checks.within("released_a", self.released_a, &[0.005, 0.5]);
     }
 }
 
@@ -127,9 +125,12 @@ impl CoilStage {
     ///
     /// # Errors
     /// The first parameter at fault, by name and range.
+    #[inline(never)]
     pub fn new(parameters: &CoilStageParameters) -> Result<Self, ParameterError> {
         let p = parameters;
-        p.validate()?;
+        let mut checks = Checks::new();
+        p.check(&mut checks);
+        checks.done()?;
         Ok(Self { shared: Shared::new(p), spools: p.spools.map(|spool| Spool::new(&spool, p.released_a)) })
     }
 

@@ -10,7 +10,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::TICK_S;
-use crate::parameters::{ParameterError, within};
+use crate::parameters::Checks;
 
 /// The dither of a spool.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,15 +28,13 @@ impl DitherParameters {
     pub const NONE: Self = Self { frequency_hz: 50.0, amplitude_a: 0.0, fade_below_a: 0.1 };
 
     /// Checks every value.
-    ///
-    /// # Errors
-    /// The first at fault, by name and range.
-    pub fn validate(&self) -> Result<(), ParameterError> {
-        within("dither.frequency_hz", self.frequency_hz.into(), [10.0, 250.0])?;
-        within("dither.amplitude_a", self.amplitude_a.into(), [0.0, 0.5])?;
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        checks.within("dither.frequency_hz", self.frequency_hz, &[10.0, 250.0]);
+        checks.within("dither.amplitude_a", self.amplitude_a, &[0.0, 0.5]);
         // Below its own amplitude the dither would ask for a current the other way.
         let least = if self.amplitude_a > 0.01 { self.amplitude_a } else { 0.01 };
-        within("dither.fade_below_a", self.fade_below_a.into(), [least.into(), 5.0])
+        checks.within("dither.fade_below_a", self.fade_below_a, &[least.into(), 5.0]);
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::TICK_S;
-use crate::parameters::{ParameterError, within};
+use crate::parameters::Checks;
 
 /// The ramps of one direction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,12 +19,10 @@ impl RampParameters {
     pub const NONE: Self = Self { up_a_per_s: 10_000.0, down_a_per_s: 10_000.0 };
 
     /// Checks every value.
-    ///
-    /// # Errors
-    /// The first at fault, by name and range.
-    pub fn validate(&self) -> Result<(), ParameterError> {
-        within("ramp.up_a_per_s", self.up_a_per_s.into(), [0.01, 10_000.0])?;
-        within("ramp.down_a_per_s", self.down_a_per_s.into(), [0.01, 10_000.0])
+    #[inline(never)]
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        checks.within("ramp.up_a_per_s", self.up_a_per_s, &[0.01, 10_000.0]);
+        checks.within("ramp.down_a_per_s", self.down_a_per_s, &[0.01, 10_000.0]);
     }
 }
 

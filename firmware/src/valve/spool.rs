@@ -103,6 +103,7 @@ impl Spool {
         self.directions.each_ref().map(|direction| direction.flow.constant())
     }
 
+    #[inline(never)]
     pub(super) fn new(spool: &SpoolParameters, released_a: f32) -> Self {
         let ([extend, retract], [ramp_extend, ramp_retract]) = (&spool.flow, &spool.ramp);
         let directions = [(extend, ramp_extend), (retract, ramp_retract)]

@@ -4,7 +4,8 @@ use firmware::board::Controller;
 use firmware::can::address::Addresses;
 use firmware::simulated::link::{NAME, RECORD_BYTES, REFUSAL_BYTES, REQUEST_BYTES, Reply, Request};
 use firmware::simulated::{SimulatedBoard, Wires};
-use firmware::{Fitted, Parameters, SelfTest};
+use firmware::store::parameters_from;
+use firmware::{Fitted, SelfTest};
 
 use crate::emulated::link::{Link, LinkLost};
 use crate::emulated::stopwatch::Stopwatch;
@@ -38,16 +39,16 @@ impl Session {
         let record = record.get_mut(..u32::from_le_bytes(length) as usize).ok_or(LinkLost)?;
         link.read(record)?;
         let mut text = Text::default();
-        let built = match postcard::from_bytes::<Parameters>(record) {
-            Ok(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, fitted)
+        let built = match parameters_from(record) {
+            Some(parameters) => Controller::with(&parameters, Addresses::DEFAULT, &NAME, fitted)
                 .map(|mut controller| {
                     // The emulated board has none of the parts that the self-test tries.
                     controller.self_tested(&SelfTest::PASSED);
                     controller
                 })
                 .map_err(|error| text.set(&error)),
-            Err(error) => {
-                text.set(&error);
+            None => {
+                text.set(&"the bytes are no parameters");
                 Err(())
             }
         };

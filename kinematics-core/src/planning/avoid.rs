@@ -16,9 +16,11 @@ use core::fmt;
 
 use super::hull::{Hull, Near, Placed, SEGMENTS, Sphere};
 use super::joint_line::{Travel, turn, turned};
-use crate::geometry::PinGeometry;
+use crate::error::Cylinder;
+use crate::geometry::{BoomCylinder, PinGeometry, Stroke};
+use crate::linkages::Linkages;
 use crate::sector::Sector;
-use crate::{Joints, Machine, Real, Rotor};
+use crate::{Real, Rotor};
 
 /// Changes for every obstacle, one after the other, so often.
 const PASSES: usize = 3;
@@ -448,21 +450,22 @@ type Travels = ([Travel<f64>; 3], Option<Travel<f64>>);
 
 /// Travels of boom, arm, bucket over their strokes, and of the swing cylinder's where there is one.
 fn travels(g: &PinGeometry) -> Option<Travels> {
-    let machine = Machine::<f64>::new(g).ok()?;
-    let end = |[boom, arm, bucket]: [f64; 3]| -> Option<Joints<f64>> {
-        machine.cylinders_to_joints(&crate::Cylinders { boom, arm, bucket }).ok()
+    let linkages = Linkages::new(g);
+    let ends = |cylinder, stroke: Stroke| {
+        Some([linkages.rotor(cylinder, stroke.min_m)?, linkages.rotor(cylinder, stroke.max_m)?])
     };
-    let strokes = [g.boom.stroke, g.arm.stroke, g.bucket.stroke];
-    let (short, long) = (end(strokes.map(|s| s.min_m))?, end(strokes.map(|s| s.max_m))?);
-    let raises = g.boom_cylinder == crate::geometry::BoomCylinder::Below;
-    let (low, high) = if raises { (short.boom, long.boom) } else { (long.boom, short.boom) };
-    let planar = [travel(low, high)?, travel(long.arm, short.arm)?, travel(long.bucket, short.bucket)?];
-    let swing = match (machine.swing_cylinder(), g.swing) {
-        (Some(cylinder), Some(pins)) => {
-            let (right, left) = (cylinder.rotor(pins.stroke.min_m).ok()?, cylinder.rotor(pins.stroke.max_m).ok()?);
+    let [boom_short, boom_long] = ends(Cylinder::Boom, g.boom.stroke)?;
+    let [arm_short, arm_long] = ends(Cylinder::Arm, g.arm.stroke)?;
+    let [bucket_short, bucket_long] = ends(Cylinder::Bucket, g.bucket.stroke)?;
+    let raises = g.boom_cylinder == BoomCylinder::Below;
+    let (low, high) = if raises { (boom_short, boom_long) } else { (boom_long, boom_short) };
+    let planar = [travel(low, high)?, travel(arm_long, arm_short)?, travel(bucket_long, bucket_short)?];
+    let swing = match g.swing {
+        Some(pins) => {
+            let [right, left] = ends(Cylinder::Swing, pins.stroke)?;
             Some(travel(right, left)?)
         }
-        _ => None,
+        None => None,
     };
     Some((planar, swing))
 }

@@ -43,7 +43,7 @@
 
 use crate::geometry::{GeometryError, PinGeometry};
 use crate::machine::bucket_open;
-use crate::validate::{finite, positive};
+use crate::validate::Checks;
 use crate::{Joints, Machine, PoseError, Real, Rotor, Vec2};
 
 /// How many strips make the linkage.
@@ -159,20 +159,22 @@ impl OutlineShape {
 
     /// Coordinates lie within ±1000 m, radii and half-widths above 0; or the first that does not.
     fn checked(&self) -> Result<(), GeometryError> {
-        finite("outline.boom_knee_x_m", self.boom_knee.x)?;
-        finite("outline.boom_knee_z_m", self.boom_knee.z)?;
-        finite("outline.bucket_back_x_m", self.bucket_back.x)?;
-        finite("outline.bucket_back_z_m", self.bucket_back.z)?;
-        positive("outline.boom_radius_m", self.boom_radius_m)?;
-        positive("outline.boom_half_width_m", self.boom_half_width_m)?;
-        positive("outline.arm_radius_m", self.arm_radius_m)?;
-        positive("outline.arm_half_width_m", self.arm_half_width_m)?;
-        positive("outline.cylinder_radius_m", self.cylinder_radius_m)?;
-        positive("outline.boom_cylinder_half_width_m", self.boom_cylinder_half_width_m)?;
-        positive("outline.link_radius_m", self.link_radius_m)?;
-        positive("outline.link_half_width_m", self.link_half_width_m)?;
-        positive("outline.bucket_radius_m", self.bucket_radius_m)?;
-        positive("outline.bucket_half_width_m", self.bucket_half_width_m)
+        let mut checks = Checks(Ok(()));
+        checks.finite("outline.boom_knee_x_m", self.boom_knee.x);
+        checks.finite("outline.boom_knee_z_m", self.boom_knee.z);
+        checks.finite("outline.bucket_back_x_m", self.bucket_back.x);
+        checks.finite("outline.bucket_back_z_m", self.bucket_back.z);
+        checks.positive("outline.boom_radius_m", self.boom_radius_m);
+        checks.positive("outline.boom_half_width_m", self.boom_half_width_m);
+        checks.positive("outline.arm_radius_m", self.arm_radius_m);
+        checks.positive("outline.arm_half_width_m", self.arm_half_width_m);
+        checks.positive("outline.cylinder_radius_m", self.cylinder_radius_m);
+        checks.positive("outline.boom_cylinder_half_width_m", self.boom_cylinder_half_width_m);
+        checks.positive("outline.link_radius_m", self.link_radius_m);
+        checks.positive("outline.link_half_width_m", self.link_half_width_m);
+        checks.positive("outline.bucket_radius_m", self.bucket_radius_m);
+        checks.positive("outline.bucket_half_width_m", self.bucket_half_width_m);
+        checks.0
     }
 }
 

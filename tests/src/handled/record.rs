@@ -6,8 +6,8 @@ use firmware::board::Controller;
 use firmware::can::address::Addresses;
 use firmware::simulated::link::NAME;
 use firmware::simulated::{SimulatedBoard, Wires};
-use firmware::store::copy::{FORMAT_VERSION, HEADER_BYTES, decode};
-use firmware::store::{Sealed, StoredRecord};
+use firmware::store::copy::{DATA_BYTES, FORMAT_VERSION, HEADER_BYTES, decode};
+use firmware::store::{CopyFault, Decoded, Sealed, StoredRecord};
 use firmware::{Parameters, SelfTest};
 
 use super::sound;
@@ -19,7 +19,11 @@ const TICKS: u32 = 20;
 pub fn parameter_record(bytes: &[u8]) {
     let [kind, rest @ ..] = bytes else { return };
     let copy = if kind & 1 == 0 { rest.to_vec() } else { [&header(rest)[..], rest].concat() };
-    match decode(&copy) {
+    let decoded = decode(&copy);
+    if kind & 1 == 1 && rest.len() <= DATA_BYTES {
+        reads_as_postcard_does(rest, &decoded);
+    }
+    match decoded {
         Err(fault) => {
             // As text: a value at fault that is NaN does not equal itself.
             let again = Sealed::from_bytes(&copy).map(drop).map_err(|fault| fault.to_string());
@@ -34,6 +38,18 @@ pub fn parameter_record(bytes: &[u8]) {
             assert_eq!(postcard::to_stdvec(&record).ok(), postcard::to_stdvec(&decoded.record).ok());
             let bucket = usize::from(kind >> 1) % firmware::store::MAX_BUCKETS;
             runs(&record, bucket);
+        }
+    }
+}
+
+/// The firmware's own reading of a record's data takes what serde and postcard take, and refuses what they refuse.
+fn reads_as_postcard_does(data: &[u8], decoded: &Result<Decoded, CopyFault>) {
+    let whole = postcard::take_from_bytes::<StoredRecord>(data).ok().filter(|(_, rest)| rest.is_empty());
+    match (whole, decoded) {
+        (None, decoded) => assert_eq!(decoded.as_ref().err(), Some(&CopyFault::Malformed)),
+        (Some(_), Err(fault)) => assert!(matches!(fault, CopyFault::Record(_)), "{fault}"),
+        (Some((record, _)), Ok(decoded)) => {
+            assert_eq!(postcard::to_stdvec(&record).ok(), postcard::to_stdvec(&decoded.record).ok());
         }
     }
 }

@@ -1,7 +1,7 @@
 //! J1939's own messages: diagnostics, transport, addresses.
 
 use crate::can::message::{Header, Message, Rate, Sender};
-use crate::can::signal::{Signal, words};
+use crate::can::signal::{Signal, Word, states, words};
 
 const fn network(name: &'static str, pgn: u32, priority: u8, rate: Rate, about: &'static str) -> Header {
     Header {
@@ -21,7 +21,7 @@ pub const DIAGNOSTICS_GAP_MS: u16 = 50;
 /// Ticks between two answers to requests for the address at least.
 pub const CLAIM_GAP_MS: u16 = 50;
 
-const LAMP: [(u32, &str); 2] = [(0, "off"), (1, "on")];
+const LAMP: [(u32, Word); 2] = states([(0, "off"), (1, "on")]);
 
 /// Active trouble codes, J1939-73. One, or none: this frame. More: the same bytes, four for each code, by transport.
 pub static DM1: Message<10> = Message {
@@ -47,7 +47,7 @@ pub static DM1: Message<10> = Message {
     ],
 };
 
-const CONTROL: [(u32, &str); 1] = [(32, "broadcast_announce")];
+const CONTROL: [(u32, Word); 1] = states([(32, "broadcast_announce")]);
 
 /// Announces a broadcast in packets, J1939-21.
 pub static TRANSPORT_CONTROL: Message<4> = Message {

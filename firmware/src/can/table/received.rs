@@ -2,7 +2,7 @@
 
 use crate::can::message::{Header, Message, Rate, Sender};
 use crate::can::protect::{COUNTER, CRC};
-use crate::can::signal::{Scale, Signal, words};
+use crate::can::signal::{Scale, Signal, Word, states, words};
 
 /// Without a new message for so long a received value is stale, ms.
 pub const TIMEOUT_MS: u16 = 100;
@@ -25,9 +25,9 @@ const fn command(name: &'static str, pgn: u32, about: &'static str) -> Header {
 }
 
 /// States of a valve command: the lower codes of ISO 11783-7's auxiliary valve command (SPN 1920 and its like).
-pub const VALVE_STATES: [(u32, &str); 4] = [(0, "blocked"), (1, "extend"), (2, "retract"), (3, "floating")];
+pub const VALVE_STATES: [(u32, Word); 4] = states([(0, "blocked"), (1, "extend"), (2, "retract"), (3, "floating")]);
 
-const PERCENT: Scale = Scale { factor: 0.4, offset: 0.0, unit: "%" };
+const PERCENT: Scale = Scale { factor: 0.4, offset: 0.0, unit: words("%") };
 
 /// Bits as in ISO 11783-7's PGN 65073 and its like, whose reserved bytes 7 and 8 are used here: hence PGNs of our own.
 const fn valve(name: &'static str, pgn: u32, about: &'static str) -> Message<4> {
@@ -46,8 +46,8 @@ pub static ARM_COMMAND: Message<4> = valve("ArmCommand", 65282, "Flow to the arm
 /// Bucket.
 pub static BUCKET_COMMAND: Message<4> = valve("BucketCommand", 65283, "Flow to the bucket cylinder.");
 
-const SPEED: Scale = Scale { factor: 0.001, offset: -32.0, unit: "m/s" };
-const TURN: Scale = Scale { factor: 0.001, offset: -32.0, unit: "rad/s" };
+const SPEED: Scale = Scale { factor: 0.001, offset: -32.0, unit: words("m/s") };
+const TURN: Scale = Scale { factor: 0.001, offset: -32.0, unit: words("rad/s") };
 
 /// Velocity of the bucket tip in the swing plane.
 pub static TIP_VELOCITY: Message<5> = Message {
@@ -66,7 +66,7 @@ pub static TIP_VELOCITY: Message<5> = Message {
 };
 
 /// Names of the modes.
-pub const MODES: [(u32, &str); 9] = [
+pub const MODES: [(u32, Word); 9] = states([
     (0, "neutral"),
     (1, "levers"),
     (2, "tip_velocity"),
@@ -76,7 +76,7 @@ pub const MODES: [(u32, &str); 9] = [
     (6, "hold"),
     (7, "grade"),
     (8, "path"),
-];
+]);
 
 /// What the operator wants done.
 pub static MODE: Message<3> = Message {
@@ -85,7 +85,7 @@ pub static MODE: Message<3> = Message {
 };
 
 /// Names of the service tasks.
-pub const TASKS: [(u32, &str); 8] = [
+pub const TASKS: [(u32, Word); 8] = states([
     (0, "none"),
     (1, "mount_bucket"),
     (2, "valve_search"),
@@ -94,13 +94,13 @@ pub const TASKS: [(u32, &str); 8] = [
     (5, "measure_up"),
     (6, "jog"),
     (7, "keep"),
-];
+]);
 
 /// Names of the spools.
-pub const SPOOL_NAMES: [(u32, &str); 4] = [(0, "swing"), (1, "boom"), (2, "arm"), (3, "bucket")];
+pub const SPOOL_NAMES: [(u32, Word); 4] = states([(0, "swing"), (1, "boom"), (2, "arm"), (3, "bucket")]);
 
 /// Signed current of a jog; extending positive.
-const JOG_CURRENT: Scale = Scale { factor: 0.0001, offset: -3.0, unit: "A" };
+const JOG_CURRENT: Scale = Scale { factor: 0.0001, offset: -3.0, unit: words("A") };
 
 /// What the service tool wants done.
 pub static SERVICE: Message<6> = Message {
@@ -122,15 +122,15 @@ pub static SERVICE: Message<6> = Message {
     ],
 };
 
-const SLOPE_ANGLE: Scale = Scale { factor: 1.0 / 32768.0, offset: -250.0, unit: "deg" };
-const COMPENSATION: [(u32, &str); 2] = [(0, "on"), (1, "off")];
+const SLOPE_ANGLE: Scale = Scale { factor: 1.0 / 32768.0, offset: -250.0, unit: words("deg") };
+const COMPENSATION: [(u32, Word); 2] = states([(0, "on"), (1, "off")]);
 /// Figure of merit; what its third state means to a receiver is what "error" says.
-const MERIT: [(u32, &str); 2] = [(0, "fully_functional"), (1, "degraded")];
+const MERIT: [(u32, Word); 2] = states([(0, "fully_functional"), (1, "degraded")]);
 
 /// Chassis slope: J1939's own Slope Sensor Information 2, which has neither counter nor checksum.
 pub static SLOPE: Message<7> = Message {
     header: Header {
-        name: "SlopeSensor2",
+        name: words("SlopeSensor2"),
         about: words(
             "Chassis roll and pitch: J1939-71 Slope Sensor Information 2 (SPN 4976 to 4982), signs of SAE J670: roll positive to the \
                 right, pitch positive nose up.",
@@ -149,12 +149,12 @@ pub static SLOPE: Message<7> = Message {
         Signal::states("PitchMerit", 50, 2, &MERIT),
         Signal::states("RollCompensation", 52, 2, &COMPENSATION),
         Signal::states("RollMerit", 54, 2, &MERIT),
-        Signal::measured("Latency", 56, 8, Scale { factor: 0.5, offset: 0.0, unit: "ms" }, [0.0, 125.0]),
+        Signal::measured("Latency", 56, 8, Scale { factor: 0.5, offset: 0.0, unit: words("ms") }, [0.0, 125.0]),
     ],
 };
 
 /// Up to 600 bar.
-const PRESSURE: Scale = Scale { factor: 1000.0, offset: 0.0, unit: "Pa" };
+const PRESSURE: Scale = Scale { factor: 1000.0, offset: 0.0, unit: words("Pa") };
 
 const fn pressures(name: &'static str, pgn: u32, about: &'static str) -> Message<4> {
     let header = Header { sender: Sender::PressureSensors, ..command(name, pgn, about) };

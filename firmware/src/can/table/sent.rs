@@ -3,7 +3,7 @@
 use crate::can::message::{Header, Message, Rate, Sender};
 use crate::can::protect::{COUNTER, CRC};
 use crate::can::receive::Validity;
-use crate::can::signal::{Scale, Signal, words};
+use crate::can::signal::{Scale, Signal, Word, states, words};
 use crate::fault::{Fault, State};
 
 pub(super) const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], about: &'static str) -> Header {
@@ -22,37 +22,33 @@ pub(super) const fn telemetry(name: &'static str, pgn: u32, every: [u16; 2], abo
 }
 
 /// The supervisor's states by their codes.
-pub const STATES: [(u32, &str); State::ALL.len()] = states();
-
-const fn states() -> [(u32, &'static str); State::ALL.len()] {
-    let mut named = [(0, ""); State::ALL.len()];
+pub const STATES: [(u32, Word); State::ALL.len()] = {
+    let mut named = [(0, words("")); State::ALL.len()];
     let mut i = 0;
     while i < named.len() {
         let state = State::ALL[i];
-        named[i] = (state.code() as u32, state.name());
+        named[i] = (state.code() as u32, words(state.name()));
         i += 1;
     }
     named
-}
+};
 
-const CUT_OFF: [(u32, &str); 2] = [(0, "open"), (1, "closed")];
-const POSE: [(u32, &str); 2] = [(0, "invalid"), (1, "valid")];
+const CUT_OFF: [(u32, Word); 2] = states([(0, "open"), (1, "closed")]);
+const POSE: [(u32, Word); 2] = states([(0, "invalid"), (1, "valid")]);
 
 const FAULT_COUNT: usize = Fault::ALL.len() + 1;
 
 /// The faults by their codes, 0 for none.
-pub const FAULTS: [(u32, &str); FAULT_COUNT] = faults();
-
-const fn faults() -> [(u32, &'static str); FAULT_COUNT] {
-    let mut named = [(0, "none"); FAULT_COUNT];
+pub const FAULTS: [(u32, Word); FAULT_COUNT] = {
+    let mut named = [(0, words("none")); FAULT_COUNT];
     let mut i = 1;
     while i < FAULT_COUNT {
         let fault = Fault::ALL[i - 1];
-        named[i] = (fault.code() as u32, fault.name());
+        named[i] = (fault.code() as u32, words(fault.name()));
         i += 1;
     }
     named
-}
+};
 
 /// The state, protected: a display must not show an old one.
 pub static STATE: Message<7> = Message {
@@ -72,7 +68,7 @@ pub static STATE: Message<7> = Message {
     ],
 };
 
-const LENGTH: Scale = Scale { factor: 0.0001, offset: 0.0, unit: "m" };
+const LENGTH: Scale = Scale { factor: 0.0001, offset: 0.0, unit: words("m") };
 
 /// Measured cylinder lengths.
 pub static LENGTHS: Message<3> = Message {
@@ -84,7 +80,7 @@ pub static LENGTHS: Message<3> = Message {
     ],
 };
 
-const POSITION: Scale = Scale { factor: 0.001, offset: -32.0, unit: "m" };
+const POSITION: Scale = Scale { factor: 0.001, offset: -32.0, unit: words("m") };
 
 /// The bucket tip.
 pub static TIP: Message<3> = Message {
@@ -97,7 +93,7 @@ pub static TIP: Message<3> = Message {
 };
 
 /// Cosine or sine; some room beyond ±1 for rounding.
-const UNIT: Scale = Scale { factor: 0.00003125, offset: -1.004, unit: "" };
+const UNIT: Scale = Scale { factor: 0.00003125, offset: -1.004, unit: words("") };
 
 const fn rotor(cosine: &'static str, sine: &'static str, start: u8) -> [Signal; 2] {
     [
@@ -134,7 +130,7 @@ pub static BOOM_AND_ARM: Message<4> = Message {
     signals: rotors(["BoomCos", "BoomSin"], ["ArmCos", "ArmSin"]),
 };
 
-const CURRENT: Scale = Scale { factor: 0.0001, offset: 0.0, unit: "A" };
+const CURRENT: Scale = Scale { factor: 0.0001, offset: 0.0, unit: words("A") };
 
 const fn currents(names: [&'static str; 4]) -> [Signal; 4] {
     let [a, b, c, d] = names;

@@ -4,7 +4,7 @@ use super::received::{SPOOL_NAMES, TASKS};
 use super::sent::telemetry;
 use crate::can::message::{Header, Message};
 use crate::can::protect::{COUNTER, CRC};
-use crate::can::signal::{Scale, Signal};
+use crate::can::signal::{Scale, Signal, Word, states, words};
 use crate::service::{Phase, Reason};
 
 /// Period of the answers, ms.
@@ -14,30 +14,30 @@ const PHASE_COUNT: usize = Phase::ALL.len();
 const REASON_COUNT: usize = Reason::ALL.len();
 
 /// How far a task is.
-pub const PHASES: [(u32, &str); PHASE_COUNT] = {
-    let mut named = [(0, ""); PHASE_COUNT];
+pub const PHASES: [(u32, Word); PHASE_COUNT] = {
+    let mut named = [(0, words("")); PHASE_COUNT];
     let mut i = 0;
     while i < PHASE_COUNT {
-        named[i] = (Phase::ALL[i] as u32, Phase::ALL[i].name());
+        named[i] = (Phase::ALL[i] as u32, words(Phase::ALL[i].name()));
         i += 1;
     }
     named
 };
 
 /// Why a task was refused, aborted, or failed.
-pub const REASONS: [(u32, &str); REASON_COUNT] = {
-    let mut named = [(0, ""); REASON_COUNT];
+pub const REASONS: [(u32, Word); REASON_COUNT] = {
+    let mut named = [(0, words("")); REASON_COUNT];
     let mut i = 0;
     while i < REASON_COUNT {
-        named[i] = (Reason::ALL[i] as u32, Reason::ALL[i].name());
+        named[i] = (Reason::ALL[i] as u32, words(Reason::ALL[i].name()));
         i += 1;
     }
     named
 };
 
-const FOUND: [(u32, &str); 4] = [(0, "nothing"), (1, "valve"), (2, "end_stops"), (3, "bucket")];
-const PERCENT: Scale = Scale { factor: 0.4, offset: 0.0, unit: "%" };
-const LENGTH: Scale = Scale { factor: 0.0001, offset: 0.0, unit: "m" };
+const FOUND: [(u32, Word); 4] = states([(0, "nothing"), (1, "valve"), (2, "end_stops"), (3, "bucket")]);
+const PERCENT: Scale = Scale { factor: 0.4, offset: 0.0, unit: words("%") };
+const LENGTH: Scale = Scale { factor: 0.0001, offset: 0.0, unit: words("m") };
 
 /// What is under way.
 pub static ANSWER: Message<9> = Message {
@@ -63,8 +63,8 @@ pub static ANSWER: Message<9> = Message {
     ],
 };
 
-const SHARE: Scale = Scale { factor: 0.0025, offset: 0.0, unit: "%" };
-const SPEED: Scale = Scale { factor: 0.0001, offset: 0.0, unit: "" };
+const SHARE: Scale = Scale { factor: 0.0025, offset: 0.0, unit: words("%") };
+const SPEED: Scale = Scale { factor: 0.0001, offset: 0.0, unit: words("") };
 
 /// Both directions of a valve.
 pub static FOUND_VALVE: Message<4> = Message {
@@ -83,7 +83,7 @@ pub static FOUND_VALVE: Message<4> = Message {
     ],
 };
 
-const UNIT: Scale = Scale { factor: 0.00003125, offset: -1.004, unit: "" };
+const UNIT: Scale = Scale { factor: 0.00003125, offset: -1.004, unit: words("") };
 
 /// End stops or the bucket's tip.
 pub static FOUND_ENDS: Message<4> = Message {
