@@ -168,11 +168,21 @@ impl CoilWatch {
         if self.quiet && measured_a <= limits.floor_a {
             return None;
         }
-        let fault = self.judge(limits, &Given::NOTHING, measured_a);
+        // What is left of `judge` without voltage and duty: the lower envelope, never below zero, falls to it at once.
+        self.low_v = 0.0;
+        self.high_v = if self.high_v > 0.0 { self.high_v - self.high_v * limits.step } else { 0.0 };
+        let fault = if measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a
+            || measured_a >= limits.alert_a
+            || self.suspicious
+        {
+            self.count(limits, &Given::NOTHING, measured_a)
+        } else {
+            None
+        };
         if self.high_v < limits.forgotten_v {
             self.high_v = 0.0;
         }
-        self.quiet = !self.suspicious && self.high_v <= 0.0 && self.low_v <= 0.0;
+        self.quiet = !self.suspicious && self.high_v <= 0.0;
         fault
     }
 

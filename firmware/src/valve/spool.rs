@@ -217,7 +217,7 @@ impl Spool {
     }
 
     /// The other solenoid, which was given nothing, and both: the most urgent fault.
-    #[inline]
+    #[inline(always)]
     fn judge_other(
         &mut self,
         shared: &Shared,
@@ -226,19 +226,28 @@ impl Spool {
         fault: Option<CoilFault>,
     ) -> Option<(Side, CoilFault)> {
         let [extend, retract] = &mut self.watches;
-        let ((_, other), (_, other_code)) = (side.split([extend, retract]), side.split(codes));
-        let watch = other;
+        let ((_, watch), (_, other_code)) = (side.split([extend, retract]), side.split(codes));
         let other = watch.judge_idle(&shared.limits, shared.measured_a(other_code));
-        let quiet = watch.quiet();
+        self.other_calm = watch.quiet();
         let [extend_code, retract_code] = codes;
         let both = extend_code > shared.cross_code && retract_code > shared.cross_code;
-        let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
-        self.other_calm = quiet && self.cross.none();
-        if fault.is_none() && other.is_none() && cross.is_none() {
+        if !both && self.cross.none() && fault.is_none() && other.is_none() {
             return None;
         }
+        self.most_urgent(shared, both, side.join(fault, other))
+    }
+
+    /// The most urgent of the solenoids' faults and a cross. Not inlined: it is for faults.
+    #[inline(never)]
+    fn most_urgent(
+        &mut self,
+        shared: &Shared,
+        both: bool,
+        [extend, retract]: Solenoids<Option<CoilFault>>,
+    ) -> Option<(Side, CoilFault)> {
+        let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
+        self.other_calm = self.other_calm && self.cross.none();
         let idle = self.interlock.holder().map_or(Side::Extend, Side::opposite);
-        let [extend, retract] = side.join(fault, other);
         // The first of equally urgent ones.
         [(Side::Extend, extend), (Side::Retract, retract), (idle, cross)]
             .into_iter()
