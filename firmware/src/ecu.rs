@@ -18,7 +18,7 @@ use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
 use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
-use crate::pose::pose;
+use crate::pose::find_pose;
 use crate::sensing::Sensing;
 use crate::service::Service;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
@@ -204,7 +204,7 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
     fn sense_and_follow(&mut self, inputs: &Inputs) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
         // Without a fresh command nothing is wanted, and the supervisor stops what runs.
-        let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
+        let intent = inputs.command.as_ref().unwrap_or(&Intent::NEUTRAL);
         // Nothing is lent but in service.
         let fitted = self.fitted.as_mut().map(F::borrow_mut).ok_or(Fault::NotConfigured)?;
         let (machine, mut fence, followers) = fitted.parts().ok_or(Fault::NotConfigured)?;
@@ -214,11 +214,11 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
                 return Err(fault);
             }
-            self.pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
+            find_pose(machine, &sensed, &mut self.pose)?;
             self.lengths = sensed.lengths;
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
-                let asked = (&intent, inputs.slope, &inputs.pressures_pa);
+                let asked = (intent, inputs.slope, &inputs.pressures_pa);
                 near(&mut self.motion).follow((machine, followers), running, asked, &self.pose, &sensed.lengths)?
             };
             let fenced = match &mut fence {

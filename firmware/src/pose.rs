@@ -1,7 +1,8 @@
 //! Second stage: lengths and swing → bucket pose, in closed form (`kinematics-core`).
 
-use kinematics_core::{GeometryError, Machine, PinGeometry, Pose, PoseError};
+use kinematics_core::{GeometryError, Machine, PinGeometry, Pose};
 
+use crate::fault::Fault;
 use crate::sensing::Sensed;
 
 /// The maps of a geometry. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
@@ -13,11 +14,12 @@ pub(crate) fn maps(geometry: &PinGeometry) -> Result<Machine<f32>, GeometryError
     Machine::new(geometry)
 }
 
-/// The bucket pose of what the sensors say.
+/// The bucket pose of what the sensors say, found where it shall lie; what was there stays where there is none.
 ///
 /// # Errors
-/// The cylinder out of its stroke or the linkage that does not close.
+/// [`Fault::Geometry`]: a cylinder out of its stroke or a linkage that does not close.
 #[inline]
-pub fn pose(machine: &Machine<f32>, sensed: &Sensed) -> Result<Pose<f32>, PoseError<f32>> {
-    machine.cylinders_to_tip(&sensed.lengths, sensed.swing)
+pub(crate) fn find_pose(machine: &Machine<f32>, sensed: &Sensed, pose: &mut Pose<f32>) -> Result<(), Fault> {
+    *pose = machine.cylinders_to_tip(&sensed.lengths, sensed.swing).map_err(|_| Fault::Geometry)?;
+    Ok(())
 }
