@@ -128,13 +128,13 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         near(&mut self.diagnosis).judge(&inputs.codes, &inputs.pressures_pa);
 
         let wanted = self.sense_and_follow(inputs);
-        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
-        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.as_ref().err().copied(), moving };
-        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
-        let gate = near(&mut self.supervisor).judge(inputs, &watched);
-        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
-            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
-        }
+        let stage_fault = wanted.as_ref().err().copied();
+        let (coil, supplies) = (self.coil_fault, (supply_v, sensor_supply_v));
+        let gate = if near(&mut self.supervisor).goes_on(inputs, supplies, coil.is_some() || stage_fault.is_some()) {
+            Gate::Open
+        } else {
+            self.decide(inputs, supplies, stage_fault)
+        };
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
         let nothing;
@@ -151,7 +151,26 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
-        self.outputs((gate, inputs.overrun), watched.stage_fault, wanted, fenced, &driven)
+        self.outputs((gate, inputs.overrun), stage_fault, wanted, fenced, &driven)
+    }
+
+    /// What the supervisor says of a tick that is not simply another one at work; what was known at the first fault is kept. Not inlined:
+    /// what costs most is a machine at work.
+    #[inline(never)]
+    fn decide(
+        &mut self,
+        inputs: &Inputs,
+        (supply_v, sensor_supply_v): (f32, f32),
+        stage_fault: Option<Fault>,
+    ) -> Gate {
+        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault, moving };
+        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
+        let gate = self.supervisor.judge(inputs, &watched);
+        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
+            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
+        }
+        gate
     }
 
     #[inline(always)]

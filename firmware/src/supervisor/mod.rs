@@ -111,40 +111,33 @@ impl Supervisor {
         (self.self_test, self.self_test_passed) = (*report, report.passed());
     }
 
-    /// Judges one tick.
+    /// One more tick of a machine at work: it runs, it is wanted to, and nothing is wrong, `faulty` included. If so this is all of
+    /// [`Self::judge`], which stays [`Gate::Open`], and else nothing has been judged yet.
     #[inline(always)]
-    pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
-        if self.runs_on(inputs, watched) {
-            // What `decide` would find, which a test compares: nothing is counted, and the machine stays.
-            (self.cut_off_astray, self.overruns, self.idle) = (0, 0, 0);
-            self.enabled_before = true;
-            return Gate::Open;
-        }
-        self.decide(inputs, watched)
-    }
-
-    /// The tick of a machine at work: it runs, it is wanted to, and nothing is wrong.
-    #[inline(always)]
-    fn runs_on(&self, inputs: &Inputs, watched: &Watched) -> bool {
+    pub fn goes_on(&mut self, inputs: &Inputs, (supply_v, sensor_supply_v): (f32, f32), faulty: bool) -> bool {
         let within = |volts: f32, [low, high]: [f32; 2]| volts >= low && volts <= high;
-        self.state == State::Running
-            && self.told_closed
+        let goes_on = self.state == State::Running
             && self.self_test_passed
             && inputs.cut_off_closed
             && inputs.enable
             && !inputs.overrun
             && !inputs.emergency_stop
             && inputs.converters_sound == [true; 2]
-            && inputs.command.is_some_and(|intent| intent.request != Request::Neutral)
-            && watched.coil.is_none()
-            && watched.stage_fault.is_none()
-            && within(watched.supply_v, self.supply_range_v)
-            && within(watched.sensor_supply_v, self.sensor_supply_range_v)
+            && inputs.command.as_ref().is_some_and(|intent| intent.request != Request::Neutral)
+            && !faulty
+            && within(supply_v, self.supply_range_v)
+            && within(sensor_supply_v, self.sensor_supply_range_v);
+        if goes_on {
+            (self.cut_off_astray, self.overruns, self.idle) = (0, 0, 0);
+            self.enabled_before = true;
+        }
+        goes_on
     }
 
-    /// Every other tick, by the table. Not inlined: what costs most is a machine at work.
+    /// Judges one tick.
+    // Not inlined: what costs most is a machine at work.
     #[inline(never)]
-    fn decide(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
+    pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
         let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
         self.count(inputs, at_rest && !watched.moving);
 
