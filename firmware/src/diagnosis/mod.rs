@@ -55,7 +55,9 @@ pub struct Diagnosis {
     free: Free,
     /// What the actuator whose turn it is was asked for.
     asked: Asked,
-    /// The largest activity of all other actuators.
+    /// How fast the three actuators whose turn it was last may move: all but the one whose turn is next.
+    activities: [f32; 3],
+    /// The largest activity of all but the actuator whose turn it is.
     others: f32,
     /// Something is wrong with one of them.
     faulty: bool,
@@ -79,6 +81,7 @@ impl Diagnosis {
             sent: [0.0; 4],
             free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },
             asked: Asked::default(),
+            activities: [0.0; 3],
             others: 0.0,
             faulty: false,
             tick: 0,
@@ -111,11 +114,13 @@ impl Diagnosis {
             } else {
                 // The swing, number 0, has none.
                 let sides = number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder));
-                if channel.look((&self.model, self.free), (&self.asked, self.others), sides) {
+                let named = channel.look((&self.model, self.free), (&self.asked, self.others), sides);
+                // In the tick that has less to do: what it is told from changes only with a measurement.
+                let activity = channel.activity();
+                self.others = self.others(activity);
+                if named {
                     self.faulty = self.channels.iter().any(|channel| channel.wrong.is_some());
                 }
-                // In the tick that has less to do: what it is told from changes only with a measurement.
-                self.others = self.others((number + 1) % ACTUATORS.len());
             }
         }
         self.tick += 1;
@@ -135,17 +140,19 @@ impl Diagnosis {
         }
         let jumped = self.fault();
         self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.restart(*code));
-        (self.sent, self.others, self.asked, self.faulty) = ([0.0; 4], 0.0, Asked::default(), false);
+        (self.sent, self.asked, self.faulty) = ([0.0; 4], Asked::default(), false);
+        (self.activities, self.others) = ([0.0; 3], 0.0);
         jumped
     }
 
-    /// The largest activity of all actuators but this one.
+    /// The largest of the last three activities, of which this is the last.
     #[inline(always)]
-    fn others(&self, number: usize) -> f32 {
+    fn others(&mut self, activity: f32) -> f32 {
+        let [_, first, second] = self.activities;
+        self.activities = [first, second, activity];
         let mut largest = 0.0;
-        for (index, channel) in self.channels.iter().enumerate() {
-            let activity = channel.activity();
-            if index != number && activity > largest {
+        for activity in self.activities {
+            if activity > largest {
                 largest = activity;
             }
         }
