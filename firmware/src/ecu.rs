@@ -157,12 +157,7 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
     /// What the supervisor says of a tick that is not simply another one at work; what was known at the first fault is kept. Not inlined:
     /// what costs most is a machine at work.
     #[inline(never)]
-    fn decide(
-        &mut self,
-        inputs: &Inputs,
-        (supply_v, sensor_supply_v): (f32, f32),
-        stage_fault: Option<Fault>,
-    ) -> Gate {
+    fn decide(&mut self, inputs: &Inputs, (supply_v, sensor_supply_v): (f32, f32), stage_fault: Option<Fault>) -> Gate {
         let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
         let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault, moving };
         let (state, known) = (self.supervisor.state(), self.supervisor.fault());

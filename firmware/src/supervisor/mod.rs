@@ -107,6 +107,7 @@ impl Supervisor {
     }
 
     /// Takes the start-up's report; before all of it has passed nothing is enabled.
+    #[inline]
     pub fn self_tested(&mut self, report: &SelfTest) {
         (self.self_test, self.self_test_passed) = (*report, report.passed());
     }
