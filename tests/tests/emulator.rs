@@ -140,7 +140,7 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(largest("coil_stage_dying") <= 1550);
     assert!(largest("coil_stage_off") <= 200);
     // Of all four actuators.
-    assert!(largest("diagnosis_moving") <= 340 && largest("diagnosis_at_rest") <= 340);
+    assert!(largest("diagnosis_moving") <= 290 && largest("diagnosis_at_rest") <= 290);
 }
 
 #[test]
