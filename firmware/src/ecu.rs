@@ -18,7 +18,7 @@ use crate::io::{Inputs, NO_LENGTHS, NO_POSE, Outputs, Speeds};
 use crate::motion::{Motion, Wanted};
 use crate::near::near;
 use crate::parameters::{ParameterError, Parameters};
-use crate::pose::pose;
+use crate::pose::find_pose;
 use crate::sensing::Sensing;
 use crate::service::Service;
 use crate::supervisor::{Gate, SelfTest, Supervisor, Watched};
@@ -128,13 +128,13 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         near(&mut self.diagnosis).judge(&inputs.codes, &inputs.pressures_pa);
 
         let wanted = self.sense_and_follow(inputs);
-        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
-        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault: wanted.as_ref().err().copied(), moving };
-        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
-        let gate = near(&mut self.supervisor).judge(inputs, &watched);
-        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
-            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
-        }
+        let stage_fault = wanted.as_ref().err().copied();
+        let (coil, supplies) = (self.coil_fault, (supply_v, sensor_supply_v));
+        let gate = if near(&mut self.supervisor).goes_on(inputs, supplies, coil.is_some() || stage_fault.is_some()) {
+            Gate::Open
+        } else {
+            self.decide(inputs, supplies, stage_fault)
+        };
 
         // Whatever motion wanted, behind a closed gate nothing is wanted.
         let nothing;
@@ -151,7 +151,21 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         self.diagnosis.sent(&fenced.speeds);
         let driven = self.valve.drive(gate, &fenced.speeds, supply_v, &inputs.coil_codes);
         self.coil_fault = driven.fault;
-        self.outputs((gate, inputs.overrun), watched.stage_fault, wanted, fenced, &driven)
+        self.outputs((gate, inputs.overrun), stage_fault, wanted, fenced, &driven)
+    }
+
+    /// What the supervisor says of a tick that is not simply another one at work; what was known at the first fault is kept. Not inlined:
+    /// what costs most is a machine at work.
+    #[inline(never)]
+    fn decide(&mut self, inputs: &Inputs, (supply_v, sensor_supply_v): (f32, f32), stage_fault: Option<Fault>) -> Gate {
+        let (coil, moving) = (self.coil_fault, self.diagnosis.moving());
+        let watched = Watched { supply_v, sensor_supply_v, coil, stage_fault, moving };
+        let (state, known) = (self.supervisor.state(), self.supervisor.fault());
+        let gate = self.supervisor.judge(inputs, &watched);
+        if let (None, Some(fault)) = (known, self.supervisor.fault()) {
+            self.freeze_frame = Some(self.freeze(inputs, &watched, state, fault));
+        }
+        gate
     }
 
     #[inline(always)]
@@ -204,7 +218,7 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
     fn sense_and_follow(&mut self, inputs: &Inputs) -> Result<(Wanted, Fenced), Fault> {
         let running = self.supervisor.state() == State::Running;
         // Without a fresh command nothing is wanted, and the supervisor stops what runs.
-        let intent = inputs.command.unwrap_or(Intent::NEUTRAL);
+        let intent = inputs.command.as_ref().unwrap_or(&Intent::NEUTRAL);
         // Nothing is lent but in service.
         let fitted = self.fitted.as_mut().map(F::borrow_mut).ok_or(Fault::NotConfigured)?;
         let (machine, mut fence, followers) = fitted.parts().ok_or(Fault::NotConfigured)?;
@@ -214,11 +228,11 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
             if let Some(fault) = suspected.filter(|fault| fault.hides_pose()) {
                 return Err(fault);
             }
-            self.pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
+            find_pose(machine, &sensed, &mut self.pose)?;
             self.lengths = sensed.lengths;
             suspected.map_or(Ok(()), Err)?;
             let wanted = {
-                let asked = (&intent, inputs.slope, &inputs.pressures_pa);
+                let asked = (intent, inputs.slope, &inputs.pressures_pa);
                 near(&mut self.motion).follow((machine, followers), running, asked, &self.pose, &sensed.lengths)?
             };
             let fenced = match &mut fence {

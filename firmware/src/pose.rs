@@ -2,6 +2,7 @@
 
 use kinematics_core::{Cylinders, GeometryError, Machine, PinGeometry, PlaneTip, Pose, PoseError, Real};
 
+use crate::fault::Fault;
 use crate::sensing::Sensed;
 
 /// The maps of a geometry; nothing here asks those in fixed point. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
@@ -13,13 +14,14 @@ pub(crate) fn maps(geometry: &PinGeometry) -> Result<Machine<f32>, GeometryError
     Machine::without_fine_maps(geometry)
 }
 
-/// The bucket pose of what the sensors say.
+/// The bucket pose of what the sensors say, found where it shall lie; what was there stays where there is none.
 ///
 /// # Errors
-/// The cylinder out of its stroke or the linkage that does not close.
+/// [`Fault::Geometry`]: a cylinder out of its stroke or a linkage that does not close.
 #[inline]
-pub fn pose(machine: &Machine<f32>, sensed: &Sensed) -> Result<Pose<f32>, PoseError<f32>> {
-    machine.cylinders_to_tip(&sensed.lengths, sensed.swing)
+pub(crate) fn find_pose(machine: &Machine<f32>, sensed: &Sensed, pose: &mut Pose<f32>) -> Result<(), Fault> {
+    *pose = machine.cylinders_to_tip(&sensed.lengths, sensed.swing).map_err(|_| Fault::Geometry)?;
+    Ok(())
 }
 
 /// The cylinders for a tip where not every tick asks. Not inlined, so that an image holds it once.

@@ -176,8 +176,18 @@ impl Bench {
         self
     }
 
+    /// The short way of a machine at work is tried beside the whole of it: it is taken for nothing else, and says and leaves the same.
     fn tick(&mut self) -> (State, Gate) {
+        let (mut short, before) = (self.supervisor, format!("{:?}", self.supervisor));
+        let watched = &self.watched;
+        let faulty = watched.coil.is_some() || watched.stage_fault.is_some();
+        let goes_on = short.goes_on(&self.inputs, (watched.supply_v, watched.sensor_supply_v), faulty);
         let gate = self.supervisor.judge(&self.inputs, &self.watched);
+        if goes_on {
+            assert_eq!(format!("{short:?} Open"), format!("{:?} {gate:?}", self.supervisor), "{self:?}");
+        } else {
+            assert_eq!(format!("{short:?}"), before, "{self:?}");
+        }
         self.inputs.cut_off_closed = gate == Gate::Open;
         (self.supervisor.state(), gate)
     }
@@ -272,6 +282,35 @@ fn a_fault_during_the_self_test_does_not_get_round_it() {
     for tick in 0..100 {
         bench.inputs.enable = tick > 50;
         assert_eq!(bench.tick(), (State::Fault, Gate::Closed));
+    }
+}
+
+#[test]
+fn a_machine_at_work_goes_on_the_short_way_and_nothing_wrong_does() {
+    let goes_on = |spoil: &dyn Fn(&mut Inputs, &mut Watched)| {
+        let mut b = Bench::running();
+        b.inputs.command = asking(Request::Path);
+        spoil(&mut b.inputs, &mut b.watched);
+        let faulty = b.watched.coil.is_some() || b.watched.stage_fault.is_some();
+        b.supervisor.goes_on(&b.inputs, (b.watched.supply_v, b.watched.sensor_supply_v), faulty)
+    };
+    assert!(goes_on(&|_, _| {}) && goes_on(&|_, watched| watched.moving = true));
+    let spoilt: [&dyn Fn(&mut Inputs, &mut Watched); 12] = [
+        &|inputs, _| inputs.enable = false,
+        &|inputs, _| inputs.emergency_stop = true,
+        &|inputs, _| inputs.overrun = true,
+        &|inputs, _| inputs.cut_off_closed = false,
+        &|inputs, _| inputs.converters_sound = [true, false],
+        &|inputs, _| inputs.converters_sound = [false, true],
+        &|inputs, _| inputs.command = None,
+        &|inputs, _| inputs.command = asking(Request::Neutral),
+        &|_, watched| watched.supply_v = f32::NAN,
+        &|_, watched| watched.sensor_supply_v = 9.4,
+        &|_, watched| watched.stage_fault = Some(Fault::FollowingError),
+        &|_, watched| watched.coil = FaultyCoil::ALL.first().copied(),
+    ];
+    for (number, spoil) in spoilt.into_iter().enumerate() {
+        assert!(!goes_on(spoil), "{number}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! One actuator: its code every tick, its motion every round.
 
-use super::envelope::{Envelope, Model};
+use super::envelope::{Asked, Envelope, Model};
 use super::parameters::ActuatorLimits;
 use super::stuck::{Free, Sides, Stuck, StuckLimits};
 use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
@@ -45,12 +45,6 @@ pub(super) struct Channel {
     full: f32,
     per_full: f32,
     envelope: Envelope,
-    /// Speed lies in the envelope.
-    inside: bool,
-    /// It is the opposite of the command.
-    against: bool,
-    /// No other actuator moves: none takes its oil.
-    alone: bool,
     /// Rounds outside the envelope.
     outside: u8,
     limits: StuckLimits,
@@ -82,9 +76,6 @@ impl Channel {
             full: faster,
             per_full: 1.0 / faster,
             envelope: Envelope::default(),
-            inside: true,
-            against: false,
-            alone: true,
             outside: 0,
             limits: StuckLimits {
                 travel: limits.stuck_travel,
@@ -107,20 +98,20 @@ impl Channel {
     pub(super) fn restart(&mut self, code: u16) {
         self.begin(code);
         (self.jumped, self.wrong, self.changes, self.outside) = (0, None, 0.0, 0);
-        (self.inside, self.against, self.moving) = (true, false, false);
+        self.moving = false;
         (self.envelope, self.stuck) = (Envelope::default(), Stuck::default());
     }
 
-    /// Every tick.
+    /// Every tick; a jump sets `faulty`.
     #[inline(always)]
-    pub(super) fn sample(&mut self, code: u16) {
+    pub(super) fn sample(&mut self, code: u16, faulty: &mut bool) {
         // The difference wraps as a swing's code does.
         let change = code.wrapping_sub(self.code);
         self.code = code;
         if change.wrapping_add(self.most) > 2 * self.most {
             // Whatever moved since the last round is lost in it.
             self.round_code = code;
-            (self.jumped, self.wrong) = (JUMP_ROUNDS, Some(Wrong::Jump));
+            (self.jumped, self.wrong, *faulty) = (JUMP_ROUNDS, Some(Wrong::Jump), true);
         }
     }
 
@@ -136,43 +127,45 @@ impl Channel {
         self.envelope.fastest() * self.per_full
     }
 
-    /// First in a round: speed and the model. `others` is the largest activity of the other actuators, whose masses shake this one.
+    /// First in a round: speed, and what the model makes of the command.
     #[inline(always)]
-    pub(super) fn measure(&mut self, model: &Model, command: f32, others: f32, turned: bool) {
+    pub(super) fn measure(&mut self, model: &Model, command: f32, turned: bool) -> Asked {
         let change = self.code.wrapping_sub(self.round_code).cast_signed();
         (self.round_before, self.round_code) = (self.round_code, self.code);
         self.changes = (self.changes + f32::from(change) * self.unit) * KEPT;
         let speed = self.speed();
         self.moving = speed > self.speed_margin || speed < -self.speed_margin;
-        let (low, high) = self.envelope.follow(model, command, speed, turned);
-        let margin = self.speed_margin + model.coupling * others * self.full;
-        self.inside = speed <= high + margin && speed >= low - margin;
-        self.against = command * speed < 0.0;
-        self.alone = others == 0.0;
+        self.envelope.follow(model, command, speed, turned)
     }
 
-    /// Second in a round: what is wrong.
+    /// Second in a round: what is wrong; whether anything had to be named or forgotten. `others` is the largest activity of the other
+    /// actuators, whose masses shake this one and which take its oil.
     #[inline(always)]
-    pub(super) fn look(&mut self, free: Free, sides: Sides<'_>) {
+    pub(super) fn look(
+        &mut self,
+        (model, free): (&Model, Free),
+        (asked, others): (&Asked, f32),
+        sides: Sides<'_>,
+    ) -> bool {
+        let speed = self.speed();
+        let (low, high) = self.envelope.bounds(model, asked);
+        let margin = self.speed_margin + model.coupling * others * self.full;
+        let inside = speed <= high + margin && speed >= low - margin;
         let codes = [self.round_before, self.round_code];
-        let stuck = self.stuck.follow(
-            &self.limits,
-            self.envelope.sure(),
-            codes,
-            self.unit,
-            (free, sides.filter(|_| self.alone)),
-        );
-        if self.inside && !stuck && self.wrong.is_none() {
+        let sides = sides.filter(|_| others == 0.0);
+        let stuck = self.stuck.follow(&self.limits, self.envelope.sure(), codes, self.unit, (free, sides));
+        if inside && !stuck && self.wrong.is_none() {
             self.outside = 0;
-        } else {
-            self.name(stuck);
+            return false;
         }
+        self.name(stuck, inside, asked.command * speed < 0.0);
+        true
     }
 
     /// Names what is wrong, or forgets it. Not inlined: it is for faults.
     #[inline(never)]
-    fn name(&mut self, stuck: bool) {
-        self.outside = if self.inside { 0 } else { self.outside.saturating_add(1) };
+    fn name(&mut self, stuck: bool, inside: bool, against: bool) {
+        self.outside = if inside { 0 } else { self.outside.saturating_add(1) };
         self.jumped = self.jumped.saturating_sub(1);
         self.wrong = if self.jumped > 0 {
             Some(Wrong::Jump)
@@ -180,7 +173,7 @@ impl Channel {
             Some(Wrong::Stuck)
         } else if self.outside < OUTSIDE_ROUNDS {
             None
-        } else if self.against {
+        } else if against {
             Some(Wrong::Against)
         } else {
             Some(Wrong::Uncommanded)

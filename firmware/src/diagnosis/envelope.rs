@@ -87,6 +87,14 @@ impl Span {
     }
 }
 
+/// What an actuator was asked for, from a round's first tick to its second.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Asked {
+    /// Of the dead time, and now.
+    span: Span,
+    pub(super) command: f32,
+}
+
 /// One actuator's model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Envelope {
@@ -118,26 +126,33 @@ impl Envelope {
         if out > back { out } else { back }
     }
 
-    /// One round under this command with this measured speed, `turned` at the end of every span: lowest and highest speed.
+    /// One round under this command with this measured speed, `turned` at the end of every span.
     #[inline(always)]
-    pub(super) fn follow(&mut self, model: &Model, command: f32, speed: f32, turned: bool) -> (f32, f32) {
+    pub(super) fn follow(&mut self, model: &Model, command: f32, speed: f32, turned: bool) -> Asked {
         let command_now = Span { low: command, high: command };
         self.now = self.now.and(command_now);
-        let Span { low, high } = self.now.and(self.before);
+        let span = self.now.and(self.before);
         if turned {
             let [last, one_before] = self.past;
             self.past = [self.now, last];
             self.before = self.now.and(last).and(one_before);
             self.now = command_now;
         }
-        self.out.follow(high, model.run_on_share);
-        self.back.follow(-low, model.run_on_share);
+        self.out.follow(span.high, model.run_on_share);
+        self.back.follow(-span.low, model.run_on_share);
         self.swing(model, speed);
-        let released = low == 0.0 && high == 0.0;
+        let released = span.low == 0.0 && span.high == 0.0;
         if released && !self.released {
             self.release(model);
         }
         self.released = released;
+        Asked { span, command }
+    }
+
+    /// What follows of it: lowest and highest speed, and the speed there must be.
+    #[inline(always)]
+    pub(super) fn bounds(&mut self, model: &Model, asked: &Asked) -> (f32, f32) {
+        let Asked { span: Span { low, high }, command } = *asked;
         let (out, back) = (self.out.level, self.back.level);
         // What may still run on the other way is owed.
         let must = if low > back {
@@ -152,7 +167,7 @@ impl Envelope {
         self.sure += (must - self.sure) * model.lag_share;
         let bounce = model.calmer * command;
         let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
-        let [swung_out, swung_back] = if released { self.swung } else { [0.0; 2] };
+        let [swung_out, swung_back] = if self.released { self.swung } else { [0.0; 2] };
         let larger = |a: f32, b: f32| if a > b { a } else { b };
         let rung_back = larger(model.ring * out, MEASURED * swung_out);
         let rung_out = larger(model.ring * back, MEASURED * swung_back);

@@ -1,8 +1,9 @@
 //! Between sensing and motion: whether each actuator's sensor can be believed, and whether the actuator does what it was told.
 //!
 //! Every tick each code is held against the last: a change that no motion explains is a jump. In a *round* of eight ticks one actuator after
-//! the other is looked at closely, two ticks each: first its measured speed against the [delay model](DiagnosisParameters), then
-//! whether its sensor follows motion that must have happened. Each actuator is judged alone; what is good of one says nothing of another.
+//! the other is looked at closely, two ticks each: in the first its speed is measured and the
+//! [delay model](DiagnosisParameters) goes on, in the second the one is held against the other, and whether its sensor follows motion that must
+//! have happened. Each actuator is judged alone; what is good of one says nothing of another.
 
 mod channel;
 mod envelope;
@@ -17,7 +18,7 @@ use crate::fault::Fault;
 use crate::io::Speeds;
 use crate::sensing::SensorView;
 use channel::{Channel, Wrong};
-use envelope::Model;
+use envelope::{Asked, Model};
 use stuck::Free;
 
 pub use parameters::{ActuatorLimits, DiagnosisParameters};
@@ -52,8 +53,14 @@ pub struct Diagnosis {
     /// What the valves were last told.
     sent: [f32; 4],
     free: Free,
-    /// The largest activity of all actuators but the one whose turn is next.
+    /// What the actuator whose turn it is was asked for.
+    asked: Asked,
+    /// How fast the three actuators whose turn it was last may move: all but the one whose turn is next.
+    activities: [f32; 3],
+    /// The largest activity of all but the actuator whose turn it is.
     others: f32,
+    /// Something is wrong with one of them.
+    faulty: bool,
     /// Ticks of this round.
     tick: u8,
     /// Rounds until the span of commands under way ends.
@@ -74,7 +81,10 @@ impl Diagnosis {
             model,
             sent: [0.0; 4],
             free: Free { supplied_pa: p.supplied_pa, stalled_pa: p.stalled_pa },
+            asked: Asked::default(),
+            activities: [0.0; 3],
             others: 0.0,
+            faulty: false,
             tick: 0,
             until_turn: model.span_rounds,
             begun: false,
@@ -95,18 +105,23 @@ impl Diagnosis {
             self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.begin(*code));
         }
         for (channel, code) in self.channels.iter_mut().zip(codes) {
-            channel.sample(*code);
+            channel.sample(*code, &mut self.faulty);
         }
         let number = usize::from(self.tick / 2);
         let turned = self.until_turn == 0;
         if let (Some(channel), Some(command)) = (self.channels.get_mut(number), self.sent.get(number)) {
             if self.tick.is_multiple_of(2) {
-                channel.measure(&self.model, *command, self.others, turned);
+                self.asked = channel.measure(&self.model, *command, turned);
             } else {
                 // The swing, number 0, has none.
-                channel.look(self.free, number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder)));
+                let sides = number.checked_sub(1).and_then(|cylinder| pressures.get(cylinder));
+                let named = channel.look((&self.model, self.free), (&self.asked, self.others), sides);
                 // In the tick that has less to do: what it is told from changes only with a measurement.
-                self.others = self.others((number + 1) % ACTUATORS.len());
+                let activity = channel.activity();
+                self.others = self.others(activity);
+                if named {
+                    self.faulty = self.channels.iter().any(|channel| channel.wrong.is_some());
+                }
             }
         }
         self.tick += 1;
@@ -122,21 +137,23 @@ impl Diagnosis {
     pub fn in_service(&mut self, codes: &[u16; 4]) -> Option<Fault> {
         let begun = core::mem::replace(&mut self.begun, true);
         for (channel, code) in self.channels.iter_mut().zip(codes).filter(|_| begun) {
-            channel.sample(*code);
+            channel.sample(*code, &mut self.faulty);
         }
         let jumped = self.fault();
         self.channels.iter_mut().zip(codes).for_each(|(channel, code)| channel.restart(*code));
-        (self.sent, self.others) = ([0.0; 4], 0.0);
+        (self.sent, self.asked, self.faulty) = ([0.0; 4], Asked::default(), false);
+        (self.activities, self.others) = ([0.0; 3], 0.0);
         jumped
     }
 
-    /// The largest activity of all actuators but this one.
+    /// The largest of the last three activities, of which this is the last.
     #[inline(always)]
-    fn others(&self, number: usize) -> f32 {
+    fn others(&mut self, activity: f32) -> f32 {
+        let [_, first, second] = self.activities;
+        self.activities = [first, second, activity];
         let mut largest = 0.0;
-        for (index, channel) in self.channels.iter().enumerate() {
-            let activity = channel.activity();
-            if index != number && activity > largest {
+        for activity in self.activities {
+            if activity > largest {
                 largest = activity;
             }
         }
@@ -158,7 +175,7 @@ impl Diagnosis {
     /// The most urgent fault, of the first actuator that has one.
     #[inline(always)]
     pub fn fault(&self) -> Option<Fault> {
-        if self.channels.iter().all(|channel| channel.wrong.is_none()) { None } else { self.named() }
+        if self.faulty { self.named() } else { None }
     }
 
     /// Speeds as measured: swing, boom, arm, bucket, m/s or rad/s.

@@ -8,7 +8,7 @@ use crate::fence::{Fenced, NO_CLEARANCE};
 use crate::fitted::Fitted;
 use crate::io::{Inputs, Outputs, Speeds};
 use crate::motion::Wanted;
-use crate::pose::pose;
+use crate::pose::find_pose;
 use crate::service::Answer;
 use crate::service::stage::Situation;
 use crate::supervisor::Watched;
@@ -62,8 +62,8 @@ impl<F: BorrowMut<Fitted>> Ecu<F> {
         let Some(fitted) = self.fitted.as_mut().map(F::borrow_mut) else { return Ok(false) };
         fitted.reset();
         let (machine, ..) = fitted.parts().ok_or(Fault::NotConfigured)?;
-        let pose = pose(machine, &sensed).map_err(|_| Fault::Geometry)?;
-        (self.lengths, self.pose) = (sensed.lengths, pose);
+        find_pose(machine, &sensed, &mut self.pose)?;
+        self.lengths = sensed.lengths;
         Ok(true)
     }
 

@@ -220,7 +220,7 @@ impl Motion {
                 Wanted { speeds, ..Wanted::hold(lengths) }
             }
             Request::TipVelocity | Request::Grade | Request::Path => {
-                let speeds = near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
+                let speeds = || near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
                 // Only grade follows a lever.
                 let grades = intent.request == Request::Grade;
                 let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };

@@ -63,22 +63,26 @@ impl Modes {
         self.shared.overrun.weigh(pressures_pa);
     }
 
-    /// One tick of the mode asked for; `speeds` are those of the last tick, `arm_mps` what the arm's lever asks for.
+    /// One tick of the mode asked for; `speeds` are those of the last tick, from which all but a path begin, `arm_mps` what the arm's lever
+    /// asks for.
     #[inline]
     pub(super) fn follow(
         &mut self,
         machine: &Machine<f32>,
         (intent, arm_mps, slope): (&Intent, f32, Option<Slope>),
-        (speeds, delays): ([f32; 4], &mut Delays),
+        (speeds, delays): (impl FnOnce() -> [f32; 4], &mut Delays),
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
         let Self { shared, path, grade, tip } = self;
-        shared.speeds = speeds;
         let shared = (near(shared), near(delays));
         match intent.request {
-            Request::TipVelocity => near(tip).follow(machine, shared, &intent.tip, pose, lengths),
+            Request::TipVelocity => {
+                shared.0.speeds = speeds();
+                near(tip).follow(machine, shared, &intent.tip, pose, lengths)
+            }
             Request::Grade => {
+                shared.0.speeds = speeds();
                 let grade = near(grade).as_mut().ok_or(Fault::NotConfigured)?;
                 grade.follow(machine, shared, (arm_mps, slope), pose, lengths)
             }

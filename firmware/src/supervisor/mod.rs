@@ -57,6 +57,8 @@ pub struct Supervisor {
     /// The latched fault: cleared only when running begins afresh.
     fault: Option<Fault>,
     self_test: SelfTest,
+    /// All of its steps.
+    self_test_passed: bool,
     enabled_before: bool,
     /// What the cut-off was told in the last tick.
     told_closed: bool,
@@ -77,6 +79,7 @@ impl Supervisor {
             state: State::SelfTest,
             fault: None,
             self_test: SelfTest::PENDING,
+            self_test_passed: false,
             // A switch found on at power-up is no enable edge.
             enabled_before: true,
             told_closed: false,
@@ -104,17 +107,42 @@ impl Supervisor {
     }
 
     /// Takes the start-up's report; before all of it has passed nothing is enabled.
+    #[inline]
     pub fn self_tested(&mut self, report: &SelfTest) {
-        self.self_test = *report;
+        (self.self_test, self.self_test_passed) = (*report, report.passed());
+    }
+
+    /// One more tick of a machine at work: it runs, it is wanted to, and nothing is wrong, `faulty` included. If so this is all of
+    /// [`Self::judge`], which stays [`Gate::Open`], and else nothing has been judged yet.
+    #[inline(always)]
+    pub fn goes_on(&mut self, inputs: &Inputs, (supply_v, sensor_supply_v): (f32, f32), faulty: bool) -> bool {
+        let within = |volts: f32, [low, high]: [f32; 2]| volts >= low && volts <= high;
+        let goes_on = self.state == State::Running
+            && self.self_test_passed
+            && inputs.cut_off_closed
+            && inputs.enable
+            && !inputs.overrun
+            && !inputs.emergency_stop
+            && inputs.converters_sound == [true; 2]
+            && inputs.command.as_ref().is_some_and(|intent| intent.request != Request::Neutral)
+            && !faulty
+            && within(supply_v, self.supply_range_v)
+            && within(sensor_supply_v, self.sensor_supply_range_v);
+        if goes_on {
+            (self.cut_off_astray, self.overruns, self.idle) = (0, 0, 0);
+            self.enabled_before = true;
+        }
+        goes_on
     }
 
     /// Judges one tick.
-    #[inline]
+    // Not inlined: what costs most is a machine at work.
+    #[inline(never)]
     pub fn judge(&mut self, inputs: &Inputs, watched: &Watched) -> Gate {
         let at_rest = inputs.command.is_some_and(|intent| intent.request == Request::Neutral);
         self.count(inputs, at_rest && !watched.moving);
 
-        let tested = self.self_test.passed();
+        let tested = self.self_test_passed;
         let grave = self.grave(watched, tested);
         let wrong = grave.or_else(|| self.wrong(inputs, watched));
         let facts = Facts::NONE

@@ -10,7 +10,7 @@ use super::current_loop::LoopParameters;
 use super::dither::DitherParameters;
 use super::flow_map::FlowParameters;
 use super::ramp::RampParameters;
-use super::spool::{Now, Shared, Spool};
+use super::spool::{Now, Outputs, Shared, Spool};
 use crate::constants::Constant;
 use crate::io::{Solenoids, Speeds};
 use crate::near::near;
@@ -145,24 +145,27 @@ impl CoilStage {
     #[inline]
     pub fn drive(&mut self, gate: Gate, speeds: &Speeds, supply_v: f32, codes: &[Solenoids<u16>; 4]) -> CoilsDriven {
         let this = near(self);
-        let mut driven = CoilsDriven { coils: Coils::OFF, fault: None };
         let now = Now { gate, supply: this.shared.gains.supply(supply_v), begun: Cell::new(false) };
-        let outputs = driven.coils.currents.iter_mut().zip(&mut driven.coils.duties);
-        let speeds = speeds.to_array();
-        let inputs = speeds.iter().zip(codes);
-        for (index, ((spool, (&speed, codes)), (currents, duties))) in
-            this.spools.iter_mut().zip(inputs).zip(outputs).enumerate()
-        {
-            if spool.sleeps(&this.shared, speed, *codes) {
-                continue;
-            }
-            if let Some((side, fault)) = spool.tick::<true>(&this.shared, &now, speed, *codes, (currents, duties))
-                && driven.fault.is_none_or(|so_far| fault < so_far.fault)
+        // One after the other, and currents and duties each by themselves: a loop over both would neither be unrolled nor write its zeros
+        // in place.
+        let (mut currents, mut duties, mut worst) = ([[0.0; 2]; 4], [[0; 2]; 4], None);
+        let [swing, boom, arm, bucket] = &mut this.spools;
+        let [swing_a, boom_a, arm_a, bucket_a] = &mut currents;
+        let [swing_duties, boom_duties, arm_duties, bucket_duties] = &mut duties;
+        let [swing_codes, boom_codes, arm_codes, bucket_codes] = *codes;
+        let mut one = |spool: usize, this_spool: &mut Spool, speed, codes, outputs: Outputs<'_>| {
+            if !this_spool.sleeps(&this.shared, speed, codes)
+                && let Some((side, fault)) = this_spool.tick::<true>(&this.shared, &now, speed, codes, outputs)
+                && worst.is_none_or(|so_far: FaultyCoil| fault < so_far.fault)
             {
-                driven.fault = Some(FaultyCoil { spool: index, side, fault });
+                worst = Some(FaultyCoil { spool, side, fault });
             }
-        }
-        driven
+        };
+        one(0, swing, speeds.swing, swing_codes, (swing_a, swing_duties));
+        one(1, boom, speeds.boom, boom_codes, (boom_a, boom_duties));
+        one(2, arm, speeds.arm, arm_codes, (arm_a, arm_duties));
+        one(3, bucket, speeds.bucket, bucket_codes, (bucket_a, bucket_duties));
+        CoilsDriven { coils: Coils { currents, duties }, fault: worst }
     }
 
     /// One tick in which one spool gets a signed current, A, extending positive, instead of a speed; the others get none. Everything

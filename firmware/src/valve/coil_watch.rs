@@ -168,11 +168,21 @@ impl CoilWatch {
         if self.quiet && measured_a <= limits.floor_a {
             return None;
         }
-        let fault = self.judge(limits, &Given::NOTHING, measured_a);
+        // What is left of `judge` without voltage and duty: the lower envelope, never below zero, falls to it at once.
+        self.low_v = 0.0;
+        self.high_v = if self.high_v > 0.0 { self.high_v - self.high_v * limits.step } else { 0.0 };
+        let fault = if measured_a > limits.allowed_per_volt * self.high_v + limits.floor_a
+            || measured_a >= limits.alert_a
+            || self.suspicious
+        {
+            self.count(limits, &Given::NOTHING, measured_a)
+        } else {
+            None
+        };
         if self.high_v < limits.forgotten_v {
             self.high_v = 0.0;
         }
-        self.quiet = !self.suspicious && self.high_v <= 0.0 && self.low_v <= 0.0;
+        self.quiet = !self.suspicious && self.high_v <= 0.0;
         fault
     }
 
@@ -199,5 +209,55 @@ impl CoilWatch {
             .or(over.then_some(CoilFault::OverCurrent))
             .or(open.then_some(CoilFault::Open))
             .or(saturated.then_some(CoilFault::Saturated))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bits(watch: &CoilWatch) -> ([u32; 2], [bool; 2], [Suspicion; 5]) {
+        let CoilWatch { low_v, high_v, suspicious, quiet, open, driven_excess, idle_excess, over_current, saturated } =
+            *watch;
+        let counts = [open, driven_excess, idle_excess, over_current, saturated];
+        ([low_v, high_v].map(f32::to_bits), [suspicious, quiet], counts)
+    }
+
+    #[test]
+    fn a_coil_given_nothing_is_judged_as_by_the_whole_of_it() {
+        let coil = LoopParameters::tuned(5.0, 0.1, 0.005);
+        let limits = WatchLimits::new(&WatchParameters::for_coil(1.5, 0.03), &coil, 3.0);
+        let (mut short, mut random) = (CoilWatch::default(), 1_u32);
+        let mut share = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 8) as f32 / 16_777_216.0
+        };
+        let mut named = 0;
+        for round in 0..4000 {
+            if round % 40 == 0 {
+                short.wake();
+                for _ in 0..20 {
+                    let given = Given { volts: 24.0 * share(), wanted_a: 1.0, duty: 30_000 };
+                    short.judge(&limits, &given, 1.5 * share());
+                }
+            }
+            // Mostly dying away, now and then a current that must not be.
+            let measured_a = if round / 200 % 3 == 0 { 2.0 + share() } else { 0.05 * share() - 0.01 };
+            let mut whole = short;
+            let expected = if whole.quiet && measured_a <= limits.floor_a {
+                None
+            } else {
+                let fault = whole.judge(&limits, &Given::NOTHING, measured_a);
+                if whole.high_v < limits.forgotten_v {
+                    whole.high_v = 0.0;
+                }
+                whole.quiet = !whole.suspicious && whole.high_v <= 0.0 && whole.low_v <= 0.0;
+                fault
+            };
+            assert_eq!(short.judge_idle(&limits, measured_a), expected, "{round}");
+            assert_eq!(bits(&short), bits(&whole), "{round}");
+            named += u32::from(expected.is_some());
+        }
+        assert!(named > 100, "{named}");
     }
 }

@@ -153,14 +153,12 @@ impl Spool {
         };
         let (own_code, other_code) = side.split(codes);
         let own_a = shared.measured_a(own_code);
-        let [extend, retract] = &mut self.watches;
-        let (own, _) = side.split([extend, retract]);
+        let own = side.of(&mut self.watches)?;
         let mut fault = own.judge(&shared.limits, &self.given, own_a).map(|fault| (side, fault));
         if fault.is_some() || !self.other_calm || other_code > shared.hush_code {
             fault = self.judge_other(shared, codes, side, fault.map(|(_, fault)| fault));
         }
-        let [extend, retract] = &mut self.directions;
-        let (direction, _) = side.split([extend, retract]);
+        let direction = side.of(&mut self.directions)?;
         let wish = match side {
             Side::Extend => speed,
             Side::Retract => -speed,
@@ -199,14 +197,15 @@ impl Spool {
         side: Side,
         current_a: f32,
         own_a: f32,
-        ([extend_a, retract_a], [extend, retract]): Outputs<'_>,
+        (currents, duties): Outputs<'_>,
     ) {
         let dither_a = self.dither.step(current_a);
         let duty = self.current.step(&shared.gains, &now.supply, current_a, dither_a, own_a);
         let code = duty_code(duty);
         self.given = Given { volts: duty * now.supply.volts, wanted_a: current_a + dither_a, duty: code };
-        *side.split([extend_a, retract_a]).0 = current_a;
-        *side.split([extend, retract]).0 = code;
+        if let (Some(current), Some(duty)) = (side.of(currents), side.of(duties)) {
+            (*current, *duty) = (current_a, code);
+        }
     }
 
     /// Neither solenoid was given anything.
@@ -218,7 +217,7 @@ impl Spool {
     }
 
     /// The other solenoid, which was given nothing, and both: the most urgent fault.
-    #[inline]
+    #[inline(always)]
     fn judge_other(
         &mut self,
         shared: &Shared,
@@ -226,20 +225,29 @@ impl Spool {
         side: Side,
         fault: Option<CoilFault>,
     ) -> Option<(Side, CoilFault)> {
-        let [extend, retract] = &mut self.watches;
-        let ((_, other), (_, other_code)) = (side.split([extend, retract]), side.split(codes));
-        let watch = other;
+        let (_, other_code) = side.split(codes);
+        let watch = side.opposite().of(&mut self.watches)?;
         let other = watch.judge_idle(&shared.limits, shared.measured_a(other_code));
-        let quiet = watch.quiet();
+        self.other_calm = watch.quiet();
         let [extend_code, retract_code] = codes;
         let both = extend_code > shared.cross_code && retract_code > shared.cross_code;
-        let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
-        self.other_calm = quiet && self.cross.none();
-        if fault.is_none() && other.is_none() && cross.is_none() {
+        if !both && self.cross.none() && fault.is_none() && other.is_none() {
             return None;
         }
+        self.most_urgent(shared, both, side.join(fault, other))
+    }
+
+    /// The most urgent of the solenoids' faults and a cross. Not inlined: it is for faults.
+    #[inline(never)]
+    fn most_urgent(
+        &mut self,
+        shared: &Shared,
+        both: bool,
+        [extend, retract]: Solenoids<Option<CoilFault>>,
+    ) -> Option<(Side, CoilFault)> {
+        let cross = self.cross.lasts(both, shared.cross_ticks).then_some(CoilFault::Cross);
+        self.other_calm = self.other_calm && self.cross.none();
         let idle = self.interlock.holder().map_or(Side::Extend, Side::opposite);
-        let [extend, retract] = side.join(fault, other);
         // The first of equally urgent ones.
         [(Side::Extend, extend), (Side::Retract, retract), (idle, cross)]
             .into_iter()
