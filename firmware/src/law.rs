@@ -53,28 +53,28 @@ impl LawParameters {
     /// # Errors
     /// The first out of its range, by name.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        within("motion.law.feed_forward", self.feed_forward.into(), [0.0, 1.0])?;
-        within("motion.law.integral_per_s2", self.integral_per_s2.into(), [0.0, 100.0])?;
-        within("motion.law.bias_limit_mps", self.bias_limit_mps.into(), [0.0, 0.1])?;
-        within("motion.law.correction_limit_mps", self.correction_limit_mps.into(), [0.0, 1.0])?;
-        within("motion.law.rest_zone_m", self.rest_zone_m.into(), [0.0, 0.05])?;
-        within("motion.law.reserve", self.reserve.into(), [0.0, 0.5])?;
+        within("motion.law.feed_forward", self.feed_forward, [0.0, 1.0])?;
+        within("motion.law.integral_per_s2", self.integral_per_s2, [0.0, 100.0])?;
+        within("motion.law.bias_limit_mps", self.bias_limit_mps, [0.0, 0.1])?;
+        within("motion.law.correction_limit_mps", self.correction_limit_mps, [0.0, 1.0])?;
+        within("motion.law.rest_zone_m", self.rest_zone_m, [0.0, 0.05])?;
+        within("motion.law.reserve", self.reserve, [0.0, 0.5])?;
         for acceleration in self.acceleration {
-            within("motion.law.acceleration", acceleration.into(), [0.01, 100.0])?;
+            within("motion.law.acceleration", acceleration, [0.01, 100.0])?;
         }
-        within("motion.law.cushion_mps2", self.cushion_mps2.into(), [0.01, 100.0])?;
-        within("motion.law.tip_acceleration_mps2", self.tip_acceleration_mps2.into(), [0.01, 20.0])?;
-        within("motion.law.pitch_acceleration_radps2", self.pitch_acceleration_radps2.into(), [0.01, 20.0])?;
-        within("motion.law.swing_following_error_rad", self.swing_following_error_rad.into(), [0.001, 1.0])?;
+        within("motion.law.cushion_mps2", self.cushion_mps2, [0.01, 100.0])?;
+        within("motion.law.tip_acceleration_mps2", self.tip_acceleration_mps2, [0.01, 20.0])?;
+        within("motion.law.pitch_acceleration_radps2", self.pitch_acceleration_radps2, [0.01, 20.0])?;
+        within("motion.law.swing_following_error_rad", self.swing_following_error_rad, [0.001, 1.0])?;
         for area in self.areas_m2.iter().flatten() {
-            within("motion.law.areas_m2", (*area).into(), [1e-5, 1.0])?;
+            within("motion.law.areas_m2", *area, [1e-5, 1.0])?;
         }
-        within("motion.law.flow_m3ps", self.flow_m3ps.into(), [1e-6, 1.0])?;
-        within("motion.law.feedback_lag_s", self.feedback_lag_s.into(), [0.0, 2.0])?;
-        within("motion.law.lag_m", self.lag_m.into(), [0.001, 1.0])?;
+        within("motion.law.flow_m3ps", self.flow_m3ps, [1e-6, 1.0])?;
+        within("motion.law.feedback_lag_s", self.feedback_lag_s, [0.0, 2.0])?;
+        within("motion.law.lag_m", self.lag_m, [0.001, 1.0])?;
         for load in self.overrun_n.iter().flatten() {
-            within("motion.law.overrun_n", (*load).into(), [1.0, NO_OVERRUN.into()])?;
+            within("motion.law.overrun_n", *load, [1.0, NO_OVERRUN.into()])?;
         }
-        within("motion.law.swing_overrun_radps2", self.swing_overrun_radps2.into(), [0.001, NO_OVERRUN.into()])
+        within("motion.law.swing_overrun_radps2", self.swing_overrun_radps2, [0.001, NO_OVERRUN.into()])
     }
 }

@@ -160,8 +160,8 @@ impl PositionSensor {
         // A stroke over fewer codes would read coarser than a tenth of a per mille.
         ordered(("sensor.min_code", f64::from(self.min_code) + 9999.0), ("sensor.max_code", f64::from(self.max_code)))?;
         // Some codes must be left to mean a broken wire: the lowest for an open one, the highest for a short.
-        within("sensor.min_code", self.min_code.into(), [1.0, f64::from(u16::MAX)])?;
-        within("sensor.max_code", self.max_code.into(), [0.0, f64::from(u16::MAX - 1)])?;
+        within("sensor.min_code", self.min_code, [1.0, f64::from(u16::MAX)])?;
+        within("sensor.max_code", self.max_code, [0.0, f64::from(u16::MAX - 1)])?;
         let room = core::cmp::min(self.min_code, u16::MAX - self.max_code);
         within("sensor.tolerance_codes", f64::from(self.tolerance_codes), [0.0, f64::from(room.saturating_sub(1))])
     }
@@ -214,9 +214,9 @@ impl Parameters {
 impl Supply {
     /// Each value by its name and range: full scale, lowest, highest.
     fn validate(&self, [full_scale, min, max]: [(&'static str, [f64; 2]); 3]) -> Result<(), ParameterError> {
-        within(full_scale.0, self.full_scale_v.into(), full_scale.1)?;
-        within(min.0, self.min_v.into(), min.1)?;
-        within(max.0, self.max_v.into(), max.1)?;
+        within(full_scale.0, self.full_scale_v, full_scale.1)?;
+        within(min.0, self.min_v, min.1)?;
+        within(max.0, self.max_v, max.1)?;
         ordered((min.0, self.min_v.into()), (max.0, self.max_v.into()))?;
         // What the converter cannot say could never be seen to be too high.
         ordered((max.0, self.max_v.into()), (full_scale.0, self.full_scale_v.into()))
@@ -245,12 +245,12 @@ impl ReachParameters {
 
 impl MotionParameters {
     fn validate(&self) -> Result<(), ParameterError> {
-        within("motion.preview_s", self.preview_s.into(), [0.0, 1.0])?;
-        within("motion.gain_per_s", self.gain_per_s.into(), [0.0, 20.0])?;
-        within("motion.smallest_speed_mps", self.smallest_speed_mps.into(), [0.0, 0.1])?;
-        within("motion.start_tolerance_m", self.start_tolerance_m.into(), [0.001, 0.5])?;
+        within("motion.preview_s", self.preview_s, [0.0, 1.0])?;
+        within("motion.gain_per_s", self.gain_per_s, [0.0, 20.0])?;
+        within("motion.smallest_speed_mps", self.smallest_speed_mps, [0.0, 0.1])?;
+        within("motion.start_tolerance_m", self.start_tolerance_m, [0.001, 0.5])?;
         // A start farther off than the following error would be a fault in the first tick.
-        within("motion.following_error_m", self.following_error_m.into(), [self.start_tolerance_m.into(), 0.5])?;
+        within("motion.following_error_m", self.following_error_m, [self.start_tolerance_m.into(), 0.5])?;
         self.law.as_ref().map_or(Ok(()), LawParameters::validate)
     }
 }

@@ -92,26 +92,22 @@ impl DiagnosisParameters {
     pub fn validate(&self) -> Result<(), ParameterError> {
         for actuator in &self.actuators {
             for speed in actuator.full_speed {
-                within("diagnosis.full_speed", speed.into(), [0.001, 5.0])?;
+                within("diagnosis.full_speed", speed, [0.001, 5.0])?;
             }
-            within("diagnosis.noise", actuator.noise.into(), [0.0, 0.01])?;
+            within("diagnosis.noise", actuator.noise, [0.0, 0.01])?;
             // Closer, and noise would trip it.
-            within("diagnosis.jump", actuator.jump.into(), [10.0 * f64::from(actuator.noise) + 1e-6, 0.5])?;
-            within("diagnosis.speed_margin", actuator.speed_margin.into(), [200.0 * f64::from(actuator.noise), 5.0])?;
-            within(
-                "diagnosis.stuck_travel",
-                actuator.stuck_travel.into(),
-                [49.0 * f64::from(actuator.noise) + 1e-6, 0.5],
-            )?;
+            within("diagnosis.jump", actuator.jump, [10.0 * f64::from(actuator.noise) + 1e-6, 0.5])?;
+            within("diagnosis.speed_margin", actuator.speed_margin, [200.0 * f64::from(actuator.noise), 5.0])?;
+            within("diagnosis.stuck_travel", actuator.stuck_travel, [49.0 * f64::from(actuator.noise) + 1e-6, 0.5])?;
         }
-        within("diagnosis.latest_start_s", self.latest_start_s.into(), [0.02, 1.0])?;
-        within("diagnosis.spool_lag_s", self.spool_lag_s.into(), [0.01, 1.0])?;
-        within("diagnosis.run_on_s", self.run_on_s.into(), [0.1, 5.0])?;
-        within("diagnosis.overshoot", self.overshoot.into(), [0.0, 2.0])?;
-        within("diagnosis.ring", self.ring.into(), [0.0, 1.0])?;
-        within("diagnosis.coupling", self.coupling.into(), [0.0, 3.0])?;
-        within("diagnosis.rebound", self.rebound.into(), [0.0, self.ring.into()])?;
-        within("diagnosis.supplied_pa", self.supplied_pa.into(), [0.0, self.stalled_pa.into()])?;
-        within("diagnosis.stalled_pa", self.stalled_pa.into(), [1e6, 60e6])
+        within("diagnosis.latest_start_s", self.latest_start_s, [0.02, 1.0])?;
+        within("diagnosis.spool_lag_s", self.spool_lag_s, [0.01, 1.0])?;
+        within("diagnosis.run_on_s", self.run_on_s, [0.1, 5.0])?;
+        within("diagnosis.overshoot", self.overshoot, [0.0, 2.0])?;
+        within("diagnosis.ring", self.ring, [0.0, 1.0])?;
+        within("diagnosis.coupling", self.coupling, [0.0, 3.0])?;
+        within("diagnosis.rebound", self.rebound, [0.0, self.ring.into()])?;
+        within("diagnosis.supplied_pa", self.supplied_pa, [0.0, self.stalled_pa.into()])?;
+        within("diagnosis.stalled_pa", self.stalled_pa, [1e6, 60e6])
     }
 }

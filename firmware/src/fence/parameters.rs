@@ -102,13 +102,13 @@ impl FenceParameters {
             ordered(("fence.swing.right_deg", right_deg), ("fence.swing.left_deg", left_deg))?;
         }
         within("fence.boom_pin_height_m", self.boom_pin_height_m, far)?;
-        within("fence.margin_m", self.margin_m.into(), [0.0, 5.0])?;
-        within("fence.deceleration_mps2", self.deceleration_mps2.into(), [0.01, 20.0])?;
-        within("fence.reaction_s", self.reaction_s.into(), [0.002, 2.0])?;
-        within("fence.swing_margin_rad", self.swing_margin_rad.into(), [0.0, 1.0])?;
-        within("fence.swing_deceleration_rad_s2", self.swing_deceleration_rad_s2.into(), [0.01, 20.0])?;
-        within("fence.dead_time_s", self.dead_time_s.into(), [0.0, 0.5])?;
-        within("fence.lag_s", self.lag_s.into(), [0.0, 1.0])
+        within("fence.margin_m", self.margin_m, [0.0, 5.0])?;
+        within("fence.deceleration_mps2", self.deceleration_mps2, [0.01, 20.0])?;
+        within("fence.reaction_s", self.reaction_s, [0.002, 2.0])?;
+        within("fence.swing_margin_rad", self.swing_margin_rad, [0.0, 1.0])?;
+        within("fence.swing_deceleration_rad_s2", self.swing_deceleration_rad_s2, [0.01, 20.0])?;
+        within("fence.dead_time_s", self.dead_time_s, [0.0, 0.5])?;
+        within("fence.lag_s", self.lag_s, [0.0, 1.0])
     }
 
     /// What it keeps clear of.

@@ -22,7 +22,7 @@ impl JogParameters {
     pub const DEFAULT: Self = Self { max_current_a: None };
 
     pub(crate) fn validate(&self) -> Result<(), ParameterError> {
-        self.max_current_a.map_or(Ok(()), |max_a| within("jog.max_current_a", max_a.into(), [0.05, 3.0]))
+        self.max_current_a.map_or(Ok(()), |max_a| within("jog.max_current_a", max_a, [0.05, 3.0]))
     }
 }
 

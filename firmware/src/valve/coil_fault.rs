@@ -155,15 +155,15 @@ impl WatchParameters {
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         let [coldest, hottest] = self.winding_c;
-        within("coil_watch.winding_c", coldest.into(), [-60.0, 180.0])?;
-        within("coil_watch.winding_c", hottest.into(), [-60.0, 180.0])?;
+        within("coil_watch.winding_c", coldest, [-60.0, 180.0])?;
+        within("coil_watch.winding_c", hottest, [-60.0, 180.0])?;
         ordered(("coil_watch.winding_c[0]", coldest.into()), ("coil_watch.winding_c[1]", hottest.into()))?;
-        within("coil_watch.slowest_s", self.slowest_s.into(), [0.003, 0.5])?;
-        within("coil_watch.floor_a", self.floor_a.into(), [0.005, 1.0])?;
-        within("coil_watch.over_current_a", self.over_current_a.into(), [self.floor_a.into(), 10.0])?;
+        within("coil_watch.slowest_s", self.slowest_s, [0.003, 0.5])?;
+        within("coil_watch.floor_a", self.floor_a, [0.005, 1.0])?;
+        within("coil_watch.over_current_a", self.over_current_a, [self.floor_a.into(), 10.0])?;
         // Fewer than three ticks would trip on two bad samples.
-        within("coil_watch.open_ticks", self.open_ticks.into(), [3.0, 1000.0])?;
-        within("coil_watch.short_ticks", self.short_ticks.into(), [3.0, 1000.0])?;
-        within("coil_watch.saturated_ticks", self.saturated_ticks.into(), [3.0, 10_000.0])
+        within("coil_watch.open_ticks", self.open_ticks, [3.0, 1000.0])?;
+        within("coil_watch.short_ticks", self.short_ticks, [3.0, 1000.0])?;
+        within("coil_watch.saturated_ticks", self.saturated_ticks, [3.0, 10_000.0])
     }
 }

@@ -97,12 +97,12 @@ impl CoilStageParameters {
         }
         self.coil.validate()?;
         self.watch.validate()?;
-        within("current_sense.zero_code", self.sense.zero_code.into(), [0.0, 16384.0])?;
+        within("current_sense.zero_code", self.sense.zero_code, [0.0, 16384.0])?;
         // An excess must lie inside what the converter can say.
         let visible = (64880.0 - f64::from(self.sense.zero_code)) / 65536.0;
         let least = f64::from(self.watch.over_current_a) / visible;
-        within("current_sense.full_scale_a", self.sense.full_scale_a.into(), [least, 50.0])?;
-        within("released_a", self.released_a.into(), [0.005, 0.5])
+        within("current_sense.full_scale_a", self.sense.full_scale_a, [least, 50.0])?;
+        within("released_a", self.released_a, [0.005, 0.5])
     }
 }
 

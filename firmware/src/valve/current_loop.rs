@@ -61,18 +61,18 @@ impl LoopParameters {
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         let tick_s = f64::from(TICK_S);
-        within("coil.resistance_ohm", self.resistance_ohm.into(), [0.5, 100.0])?;
+        within("coil.resistance_ohm", self.resistance_ohm, [0.5, 100.0])?;
         // Three ticks of L/R at least: the loop is sampled.
         let least_h = 3.0 * tick_s * f64::from(self.resistance_ohm);
-        within("coil.inductance_h", self.inductance_h.into(), [least_h, 1.0])?;
-        within("coil.response_s", self.response_s.into(), [3.0 * tick_s, 0.5])?;
+        within("coil.inductance_h", self.inductance_h, [least_h, 1.0])?;
+        within("coil.response_s", self.response_s, [3.0 * tick_s, 0.5])?;
         // Half a tick's deadbeat gain.
         let most = 0.5 * f64::from(self.inductance_h) / tick_s;
-        within("coil.proportional_v_per_a", self.proportional_v_per_a.into(), [0.0, most])?;
+        within("coil.proportional_v_per_a", self.proportional_v_per_a, [0.0, most])?;
         let stiffness = f64::from(self.resistance_ohm) + f64::from(self.proportional_v_per_a);
-        within("coil.integral_v_per_a_s", self.integral_v_per_a_s.into(), [0.0, 100.0 * stiffness])?;
-        within("coil.freewheel_v", self.freewheel_v.into(), [0.0, 2.0])?;
-        within("coil.max_duty", self.max_duty.into(), [0.5, 1.0])
+        within("coil.integral_v_per_a_s", self.integral_v_per_a_s, [0.0, 100.0 * stiffness])?;
+        within("coil.freewheel_v", self.freewheel_v, [0.0, 2.0])?;
+        within("coil.max_duty", self.max_duty, [0.5, 1.0])
     }
 }
 

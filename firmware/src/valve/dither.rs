@@ -32,11 +32,11 @@ impl DitherParameters {
     /// # Errors
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        within("dither.frequency_hz", self.frequency_hz.into(), [10.0, 250.0])?;
-        within("dither.amplitude_a", self.amplitude_a.into(), [0.0, 0.5])?;
+        within("dither.frequency_hz", self.frequency_hz, [10.0, 250.0])?;
+        within("dither.amplitude_a", self.amplitude_a, [0.0, 0.5])?;
         // Below its own amplitude the dither would ask for a current the other way.
         let least = if self.amplitude_a > 0.01 { self.amplitude_a } else { 0.01 };
-        within("dither.fade_below_a", self.fade_below_a.into(), [least.into(), 5.0])
+        within("dither.fade_below_a", self.fade_below_a, [least.into(), 5.0])
     }
 }
 

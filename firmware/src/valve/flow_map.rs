@@ -54,14 +54,14 @@ impl FlowParameters {
     /// # Errors
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        within("valve.max_current_a", self.max_current_a.into(), [0.05, 5.0])?;
-        within("valve.min_current_a", self.min_current_a.into(), [0.0, 0.9 * f64::from(self.max_current_a)])?;
-        within("valve.full_speed", self.full_speed.into(), [0.001, 5.0])?;
-        within("valve.on_above", self.on_above.into(), [0.0, 0.1 * f64::from(self.full_speed)])?;
-        within("valve.off_at", self.off_at.into(), [0.0, self.on_above.into()])?;
+        within("valve.max_current_a", self.max_current_a, [0.05, 5.0])?;
+        within("valve.min_current_a", self.min_current_a, [0.0, 0.9 * f64::from(self.max_current_a)])?;
+        within("valve.full_speed", self.full_speed, [0.001, 5.0])?;
+        within("valve.on_above", self.on_above, [0.0, 0.1 * f64::from(self.full_speed)])?;
+        within("valve.off_at", self.off_at, [0.0, self.on_above.into()])?;
         let (first, last) = (self.flow_table.iter().take(1), self.flow_table.iter().skip(KNOTS - 1));
         for (&end, exact) in first.chain(last).zip([0.0, 1.0]) {
-            within("valve.flow_table", end.into(), [exact; 2])?;
+            within("valve.flow_table", end, [exact; 2])?;
         }
         for (below, above) in self.flow_table.iter().zip(self.flow_table.iter().skip(1)) {
             // A flatter piece would turn a little speed into a leap of current.

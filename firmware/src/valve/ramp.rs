@@ -23,8 +23,8 @@ impl RampParameters {
     /// # Errors
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        within("ramp.up_a_per_s", self.up_a_per_s.into(), [0.01, 10_000.0])?;
-        within("ramp.down_a_per_s", self.down_a_per_s.into(), [0.01, 10_000.0])
+        within("ramp.up_a_per_s", self.up_a_per_s, [0.01, 10_000.0])?;
+        within("ramp.down_a_per_s", self.down_a_per_s, [0.01, 10_000.0])
     }
 }
 
