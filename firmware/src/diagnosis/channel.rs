@@ -3,7 +3,7 @@
 use super::envelope::{Envelope, Model};
 use super::parameters::ActuatorLimits;
 use super::stuck::{Free, Sides, Stuck, StuckLimits};
-use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
+use super::{GOING_ON_ROUNDS, JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
 use crate::TICK_S;
 use crate::constants::Constant;
 use crate::sensing::SensorView;
@@ -49,6 +49,10 @@ pub(super) struct Channel {
     inside: bool,
     /// It is the opposite of the command.
     against: bool,
+    /// How far it may leave the envelope.
+    margin: f32,
+    /// Rounds since the release beyond what does not ring.
+    going_on: u8,
     /// No other actuator moves: none takes its oil.
     alone: bool,
     /// Rounds outside the envelope.
@@ -84,6 +88,8 @@ impl Channel {
             envelope: Envelope::default(),
             inside: true,
             against: false,
+            margin: limits.speed_margin,
+            going_on: 0,
             alone: true,
             outside: 0,
             limits: StuckLimits {
@@ -106,7 +112,7 @@ impl Channel {
     /// Standing at this code, nothing known.
     pub(super) fn restart(&mut self, code: u16) {
         self.begin(code);
-        (self.jumped, self.wrong, self.changes, self.outside) = (0, None, 0.0, 0);
+        (self.jumped, self.wrong, self.changes, self.outside, self.going_on) = (0, None, 0.0, 0, 0);
         (self.inside, self.against, self.moving) = (true, false, false);
         (self.envelope, self.stuck) = (Envelope::default(), Stuck::default());
     }
@@ -147,13 +153,14 @@ impl Channel {
         let (low, high) = self.envelope.follow(model, command, speed, turned);
         let margin = self.speed_margin + model.coupling * others * self.full;
         self.inside = speed <= high + margin && speed >= low - margin;
+        self.margin = margin;
         self.against = command * speed < 0.0;
         self.alone = others == 0.0;
     }
 
     /// Second in a round: what is wrong.
     #[inline(always)]
-    pub(super) fn look(&mut self, free: Free, sides: Sides<'_>) {
+    pub(super) fn look(&mut self, model: &Model, free: Free, sides: Sides<'_>) {
         let codes = [self.round_before, self.round_code];
         let stuck = self.stuck.follow(
             &self.limits,
@@ -162,7 +169,10 @@ impl Channel {
             self.unit,
             (free, sides.filter(|_| self.alone)),
         );
-        if self.inside && !stuck && self.wrong.is_none() {
+        // A swing motor, which has no sides here, coasts for as long as its brake valves let it.
+        let goes_on = sides.is_some() && self.envelope.goes_on(model, self.speed(), self.margin);
+        self.going_on = if goes_on { self.going_on.saturating_add(1) } else { 0 };
+        if self.inside && !stuck && self.going_on < GOING_ON_ROUNDS && self.wrong.is_none() {
             self.outside = 0;
         } else {
             self.name(stuck);
@@ -178,6 +188,8 @@ impl Channel {
             Some(Wrong::Jump)
         } else if stuck {
             Some(Wrong::Stuck)
+        } else if self.going_on >= GOING_ON_ROUNDS {
+            Some(Wrong::Uncommanded)
         } else if self.outside < OUTSIDE_ROUNDS {
             None
         } else if self.against {
