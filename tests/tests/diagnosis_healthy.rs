@@ -181,3 +181,16 @@ fn a_released_mass_may_swing_on_for_ten_seconds_one_that_stood_may_not_and_none_
     let (at, fault) = swinging(true, drift).expect("named");
     assert!(fault == Fault::Uncommanded(kinematics_core::Cylinder::Boom) && at < 7000, "{at} {fault:?}");
 }
+
+#[test]
+fn a_cylinder_that_slows_down_as_late_and_slowly_as_it_may_and_rings_the_while_trips_nothing_one_that_goes_on_does() {
+    // Released at 2.0 s; what is given begins at 2.1 s.
+    let line = |t: f64| 0.3 * (1.0 - ((t - 0.15) / 1.75).clamp(0.0, 1.0));
+    for ring in [0.0, 0.2] {
+        let ringing = |t: f64| line(t) * (1.0 + ring * (core::f64::consts::TAU * 2.0 * t).sin());
+        assert_eq!(swinging(true, ringing), None, "{ring}");
+    }
+    let (at, fault) = swinging(true, |_| 0.3).expect("named");
+    println!("a cylinder that goes on: named {} ms after its release", at - 2000);
+    assert!(fault == Fault::Uncommanded(kinematics_core::Cylinder::Boom) && at < 2900, "{at} {fault:?}");
+}

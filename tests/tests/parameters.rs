@@ -214,3 +214,34 @@ fn every_value_of_law_path_and_plane_out_of_its_range_is_refused_by_name() {
         }
     }
 }
+
+/// Ends of ranges that lie between two values of the type they are stored in: written as a decimal, each is rounded out of its range or into it.
+const ENDS: [(&str, f32, fn(&mut Parameters, f32)); 13] = [
+    ("motion.law.bias_limit_mps", 0.1, |p, x| law(p).bias_limit_mps = x),
+    ("motion.law.rest_zone_m", 0.05, |p, x| law(p).rest_zone_m = x),
+    ("motion.law.acceleration", -0.01, |p, x| law(p).acceleration[2] = x),
+    ("motion.law.cushion_mps2", -0.01, |p, x| law(p).cushion_mps2 = x),
+    ("motion.law.swing_following_error_rad", -0.001, |p, x| law(p).swing_following_error_rad = x),
+    ("motion.law.areas_m2", -1e-5, |p, x| law(p).areas_m2[1][0] = x),
+    ("motion.law.flow_m3ps", -1e-6, |p, x| law(p).flow_m3ps = x),
+    ("motion.law.lag_m", -0.001, |p, x| law(p).lag_m = x),
+    ("motion.smallest_speed_mps", 0.1, |p, x| p.motion.smallest_speed_mps = x),
+    ("motion.start_tolerance_m", -0.001, |p, x| p.motion.start_tolerance_m = x),
+    ("diagnosis.latest_start_s", -0.02, |p, x| p.diagnosis.latest_start_s = x),
+    ("diagnosis.spool_lag_s", -0.01, |p, x| p.diagnosis.spool_lag_s = x),
+    ("diagnosis.run_on_s", -0.1, |p, x| p.diagnosis.run_on_s = x),
+];
+
+#[test]
+fn a_range_s_end_lies_within_it_as_it_is_stored_and_the_next_value_beyond_does_not() {
+    for (field, end, set) in ENDS {
+        // A lower end is written with a minus.
+        let beyond = if end < 0.0 { (-end).next_down() } else { end.next_up() };
+        let mut parameters = scenario("level-zx200").parameters;
+        set(&mut parameters, end.abs());
+        assert!(Ecu::new(&parameters).is_ok(), "{field} at {}", end.abs());
+        set(&mut parameters, beyond);
+        let error = Ecu::new(&parameters).map(drop).unwrap_err().to_string();
+        assert!(error.contains(&format!("`{field}`")), "{field}: {error}");
+    }
+}

@@ -31,11 +31,11 @@ impl EndStopParameters {
     /// # Errors
     /// The first at fault, by name and range.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        within("end_stops.current", self.current.into(), [0.05, 0.7])?;
-        within("end_stops.window_ticks", self.window_ticks.into(), [250.0, 5000.0])?;
-        within("end_stops.still_codes", self.still_codes.into(), [0.5, 200.0])?;
-        within("end_stops.time_out_ticks", self.time_out_ticks.into(), [1000.0, 600_000.0])?;
-        within("end_stops.least_span_codes", self.least_span_codes.into(), [1000.0, 65_535.0])
+        within("end_stops.current", self.current, [0.05, 0.7])?;
+        within("end_stops.window_ticks", self.window_ticks, [250.0, 5000.0])?;
+        within("end_stops.still_codes", self.still_codes, [0.5, 200.0])?;
+        within("end_stops.time_out_ticks", self.time_out_ticks, [1000.0, 600_000.0])?;
+        within("end_stops.least_span_codes", self.least_span_codes, [1000.0, 65_535.0])
     }
 }
 

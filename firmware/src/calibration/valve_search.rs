@@ -57,14 +57,14 @@ impl ValveSearchParameters {
     pub fn validate(&self) -> Result<(), ParameterError> {
         let [first, second] = self.measured_at;
         let [low, high] = self.room;
-        within("search.start", self.start.into(), [0.0, 0.5])?;
-        within("search.increment", self.increment.into(), [0.001, 0.05])?;
-        within("search.largest", self.largest.into(), [self.start.into(), 0.9])?;
-        within("search.dwell_ticks", self.dwell_ticks.into(), [f64::from(2 * AVERAGED), 5000.0])?;
-        within("search.threshold", self.threshold.into(), [1e-5, 0.1])?;
-        within("search.window_ticks", self.window_ticks.into(), [100.0, 5000.0])?;
-        within("search.measured_at", first.into(), [0.02, 0.9])?;
-        within("search.measured_at", second.into(), [f64::from(first) + 0.05, 1.0])?;
+        within("search.start", self.start, [0.0, 0.5])?;
+        within("search.increment", self.increment, [0.001, 0.05])?;
+        within("search.largest", self.largest, [self.start.into(), 0.9])?;
+        within("search.dwell_ticks", self.dwell_ticks, [f64::from(2 * AVERAGED), 5000.0])?;
+        within("search.threshold", self.threshold, [1e-5, 0.1])?;
+        within("search.window_ticks", self.window_ticks, [100.0, 5000.0])?;
+        within("search.measured_at", first, [0.02, 0.9])?;
+        within("search.measured_at", second, [f64::from(first) + 0.05, 1.0])?;
         ordered(("search.room[0]", low.into()), ("search.room[1]", high.into()))
     }
 }

@@ -3,7 +3,7 @@
 use super::envelope::{Asked, Envelope, Model};
 use super::parameters::ActuatorLimits;
 use super::stuck::{Free, Sides, Stuck, StuckLimits};
-use super::{JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
+use super::{GOING_ON_ROUNDS, JUMP_ROUNDS, OUTSIDE_ROUNDS, ROUND_S};
 use crate::TICK_S;
 use crate::constants::Constant;
 use crate::sensing::SensorView;
@@ -45,6 +45,8 @@ pub(super) struct Channel {
     full: f32,
     per_full: f32,
     envelope: Envelope,
+    /// Rounds since the release beyond what does not ring.
+    going_on: u8,
     /// Rounds outside the envelope.
     outside: u8,
     limits: StuckLimits,
@@ -76,6 +78,7 @@ impl Channel {
             full: faster,
             per_full: 1.0 / faster,
             envelope: Envelope::default(),
+            going_on: 0,
             outside: 0,
             limits: StuckLimits {
                 travel: limits.stuck_travel,
@@ -97,7 +100,7 @@ impl Channel {
     /// Standing at this code, nothing known.
     pub(super) fn restart(&mut self, code: u16) {
         self.begin(code);
-        (self.jumped, self.wrong, self.changes, self.outside) = (0, None, 0.0, 0);
+        (self.jumped, self.wrong, self.changes, self.outside, self.going_on) = (0, None, 0.0, 0, 0);
         self.moving = false;
         (self.envelope, self.stuck) = (Envelope::default(), Stuck::default());
     }
@@ -152,9 +155,12 @@ impl Channel {
         let margin = self.speed_margin + model.coupling * others * self.full;
         let inside = speed <= high + margin && speed >= low - margin;
         let codes = [self.round_before, self.round_code];
+        // A swing motor, which has no sides here, coasts for as long as its brake valves let it.
+        let goes_on = sides.is_some() && self.envelope.goes_on(model, speed, margin);
+        self.going_on = if goes_on { self.going_on.saturating_add(1) } else { 0 };
         let sides = sides.filter(|_| others == 0.0);
         let stuck = self.stuck.follow(&self.limits, self.envelope.sure(), codes, self.unit, (free, sides));
-        if inside && !stuck && self.wrong.is_none() {
+        if inside && !stuck && self.going_on < GOING_ON_ROUNDS && self.wrong.is_none() {
             self.outside = 0;
             return false;
         }
@@ -171,6 +177,8 @@ impl Channel {
             Some(Wrong::Jump)
         } else if stuck {
             Some(Wrong::Stuck)
+        } else if self.going_on >= GOING_ON_ROUNDS {
+            Some(Wrong::Uncommanded)
         } else if self.outside < OUTSIDE_ROUNDS {
             None
         } else if against {

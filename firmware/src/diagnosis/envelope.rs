@@ -5,6 +5,9 @@
 //! end of the dead time is at most what was measured until then; and a mass on closed oil swings on as long as each swing is about as fast
 //! as the one before it the other way. The speed it must have is the command nearest to zero of that time, less what may still run on the
 //! other way, behind the slowest spool.
+//!
+//! Room for ringing is room for a spool that sticks open too. But what rings comes back: a released cylinder that stays beyond a closer line, on
+//! which the measured speed itself falls to rest a run-on after the release, goes on.
 
 use super::ROUND_S;
 use super::parameters::DiagnosisParameters;
@@ -25,6 +28,8 @@ pub(super) struct Model {
     ring: f32,
     /// By how much less a speed bounces back than rings back.
     calmer: f32,
+    /// From a run-on's level and slope to the line below which what does not ring falls.
+    line: [f32; 2],
     /// Share of its full speed that the others at theirs shake an actuator with.
     pub(super) coupling: f32,
     /// Rounds of a span: three cover the longest dead time.
@@ -35,7 +40,13 @@ impl Model {
     /// Of valid parameters.
     pub(super) fn new(p: &DiagnosisParameters) -> Self {
         let share = |time_s: f32| if time_s > ROUND_S { ROUND_S / time_s } else { 1.0 };
+        // The dead time is part of it, for at most half of it.
+        let dead_s = if 2.0 * p.latest_start_s < p.run_on_s { p.latest_start_s } else { 0.5 * p.run_on_s };
+        let steeper = p.run_on_s / (p.run_on_s - dead_s);
+        // A run-on's level stands for 1.25 times what was measured, its slope for the level it began at.
+        let measured = (1.0 + p.overshoot) / MEASURED;
         Self {
+            line: [measured * steeper, measured * (steeper - 1.0) / share(p.run_on_s)],
             run_on_share: share(p.run_on_s),
             // Half the run-on: longer than from one swing to the next.
             remembered: 1.0 - share(0.5 * p.run_on_s),
@@ -124,6 +135,15 @@ impl Envelope {
     pub(super) fn fastest(&self) -> f32 {
         let (out, back) = (self.out.level, self.back.level);
         if out > back { out } else { back }
+    }
+
+    /// Whether it is released and faster, by more than this margin, than what does not ring may still be.
+    #[inline(always)]
+    pub(super) fn goes_on(&self, model: &Model, speed: f32, margin: f32) -> bool {
+        let (speed, run_on) = if speed > 0.0 { (speed, self.out) } else { (-speed, self.back) };
+        let [of_level, of_slope] = model.line;
+        let beyond = speed - margin;
+        self.released && beyond > 0.0 && beyond > of_level * run_on.level - of_slope * run_on.slope
     }
 
     /// One round under this command with this measured speed, `turned` at the end of every span.

@@ -69,8 +69,27 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-pub(crate) fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), ParameterError> {
-    let [low, high] = range;
+/// A value as it is stored.
+pub(crate) trait Stored: Copy + Into<f64> {
+    /// The end of a range, rounded as such a value is.
+    fn rounded(end: f64) -> f64 {
+        end
+    }
+}
+
+impl Stored for f64 {}
+impl Stored for u8 {}
+impl Stored for u16 {}
+impl Stored for u32 {}
+impl Stored for f32 {
+    fn rounded(end: f64) -> f64 {
+        f64::from(end as f32)
+    }
+}
+
+/// The ends are rounded as the value is: what somebody writes as the end lies within.
+pub(crate) fn within<V: Stored>(field: &'static str, value: V, range: [f64; 2]) -> Result<(), ParameterError> {
+    let ([low, high], value) = (range.map(V::rounded), value.into());
     // Written so that NaN fails.
     if value >= low && value <= high { Ok(()) } else { Err(ParameterError::OutOfRange { field, value, range }) }
 }
@@ -95,12 +114,7 @@ impl Checks {
 
     /// A value in its range.
     #[inline(never)]
-    pub(crate) fn within(&mut self, field: &'static str, value: impl Into<f64>, range: &[f64; 2]) {
-        self.judge(field, value.into(), range);
-    }
-
-    #[inline(never)]
-    fn judge(&mut self, field: &'static str, value: f64, range: &[f64; 2]) {
+    pub(crate) fn within<V: Stored>(&mut self, field: &'static str, value: V, range: &[f64; 2]) {
         self.and(within(field, value, *range));
     }
 

@@ -40,9 +40,9 @@ fn run(args: &FaultsArgs) -> Result<Report, Box<dyn Error>> {
 fn table(report: &Report) -> String {
     let Report { machine, seed, runs, healthy, false_trips, .. } = report;
     let mut out = format!(
-        "{machine}: {runs} simulated runs, {healthy} of them healthy; {false_trips} false trips (seed {seed})\n  {:<22} {:>5} {:>5} {:>7} \
+        "{machine}: {runs} simulated runs, {healthy} of them healthy; {false_trips} false trips (seed {seed})\n  {:<22} {:>5} {:>5} {:>6} {:>7} \
          {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>7}  bound\n",
-        "fault", "seen", "not", "wait", "p50", "p99", "max", "[ms] |", "p50", "p99", "max [mm]"
+        "fault", "seen", "not", "never", "wait", "p50", "p99", "max", "[ms] |", "p50", "p99", "max [mm]"
     );
     let spread = |spread: Option<Spread>| match spread {
         Some(Spread { p50, p99, max }) => [p50, p99, max].map(|x| format!("{x:.0}")),
@@ -60,8 +60,8 @@ fn table(report: &Report) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "  {:<22} {:>5} {:>5} {wait:>7} {d50:>6} {d99:>6} {d:>6}      | {t50:>6} {t99:>6} {t:>7}   {bound}",
-            row.name, row.detected, row.undetected
+            "  {:<22} {:>5} {:>5} {:>6} {wait:>7} {d50:>6} {d99:>6} {d:>6}      | {t50:>6} {t99:>6} {t:>7}   {bound}",
+            row.name, row.detected, row.undetected, row.never_observable
         );
     }
     for (named, situation) in &report.false_trips_named {

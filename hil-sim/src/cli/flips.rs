@@ -33,7 +33,7 @@ fn run(args: &FlipsArgs) -> Result<Report, Box<dyn Error>> {
 }
 
 fn table(report: &Report) -> String {
-    let Report { seed, runs, rows, watch_instructions } = report;
+    let Report { seed, runs, rows, watch_instructions, unseen } = report;
     let mut out = format!(
         "{runs} emulated runs, one thing spoilt in each (seed {seed}); slight: within {:.0} mm of where the tip would have been\n  {:<26} {:>5} {:>9} {:>5} \
          {:>8} {:>7} {:>7} {:>10}\n",
@@ -63,6 +63,9 @@ fn table(report: &Report) -> String {
     for row in rows.iter().filter(|row| row.off > 0) {
         let by: Vec<String> = row.off_by.iter().map(|(by, count)| format!("{by} {count}")).collect();
         let _ = writeln!(out, "{}: off by {}", row.name, by.join(", "));
+    }
+    for run in unseen {
+        let _ = writeln!(out, "astray unseen: case {} in {}, {:.1} mm", run.case, run.scenario, run.astray_mm);
     }
     out
 }

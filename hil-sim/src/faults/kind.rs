@@ -153,7 +153,8 @@ pub const KINDS: [Kind; 31] = [
         cause: Cause::Spool(Defect::Stuck),
         bound_ms: Some(2350.0),
         reason: Some(
-            "100 ms after the speed leaves what a healthy machine may do, which may start 250 ms late and run on for 2 s after its release",
+            "100 ms after the speed leaves what a healthy machine may do, which may start 250 ms late and run on for 2 s after its release; \
+             a cylinder that is at its stop before its true speed has left that for half a swing shows nothing",
         ),
     },
     unseen(

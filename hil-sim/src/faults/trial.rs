@@ -10,11 +10,20 @@ use super::spoil::Spoiler;
 use crate::machine_file::MachineFile;
 use crate::place::Host;
 use crate::plant::Defect;
-use crate::run::{Log, Run};
+use crate::run::{Log, Row, Run};
 use crate::scenario::Scenario;
 
 /// A cylinder this far from where it would be without the fault can be seen to be elsewhere, m.
 const ASTRAY_M: f64 = 0.01;
+const TICK_S: f64 = 0.001;
+/// The latest a released healthy cylinder begins to slow down: a dead time of 250 ms, which the controller's window covers to within 102 ms, s.
+const LATEST_S: f64 = 0.352;
+/// It comes to rest 2 s after the release, less the dead time, s.
+const FALL_S: f64 = 1.75;
+/// What measured speed may be wrong by, m/s.
+const MARGIN_MPS: f64 = 0.03;
+/// Half a swing of a mass that rings at 2 Hz, s.
+const HALF_SWING_S: f64 = 0.25;
 
 /// What came of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +95,8 @@ pub(super) fn run(machine: &MachineFile, seed: u64, index: u64) -> Result<Found,
     let mut spoiler = Spoiler::new(cause, from_s, mover.spool, mover.side, stroke.max_m - stroke.min_m, case);
     let log = complete(&scenario, case, Some(&mut spoiler))?;
     let observable_s = match cause {
+        // A healthy cylinder may run on for a while: one that is at its stop by then shows nothing.
+        Cause::Spool(Defect::Stuck) if !goes_on(&log, mover.spool, released_s) => None,
         Cause::Spool(_) | Cause::NoPressure => astray(&log, &complete(&scenario, case, None)?),
         _ => spoiler.observable_s,
     };
@@ -125,6 +136,23 @@ fn astray(log: &Log, healthy: &Log) -> Option<f64> {
         })
         .map(|(row, _)| row.time_s)
         .next()
+}
+
+/// Whether the cylinder's true speed after the release was ever beyond the line of what does not ring, for longer than it could ring.
+fn goes_on(log: &Log, spool: usize, released_s: f64) -> bool {
+    let length = |row: &Row| [row.lengths.boom, row.lengths.arm, row.lengths.bucket][spool - 1];
+    let speeds = || log.rows.windows(2).map(|pair| (pair[1].time_s, (length(&pair[1]) - length(&pair[0])) / TICK_S));
+    let released_mps = speeds().take_while(|(time_s, _)| *time_s <= released_s).last().map_or(0.0, |(_, speed)| speed);
+    let mut since_s = None;
+    for (time_s, speed_mps) in speeds().filter(|(time_s, _)| *time_s > released_s) {
+        let fallen = ((time_s - released_s - LATEST_S) / FALL_S).clamp(0.0, 1.0);
+        if speed_mps.abs() <= released_mps.abs() * (1.0 - fallen) + MARGIN_MPS {
+            since_s = None;
+        } else if time_s - *since_s.get_or_insert(time_s) > HALF_SWING_S {
+            return true;
+        }
+    }
+    false
 }
 
 fn travel(log: &Log, from_s: f64) -> Option<f64> {

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::place::Image;
 use crate::shard::Shard;
 
-pub use tally::{Report, Row};
+pub use tally::{Report, Row, Unseen};
 pub use trial::SLIGHT_M;
 
 /// Scenarios in which the bits are turned.

@@ -39,6 +39,17 @@ pub struct Row {
     pub astray_mm: f64,
 }
 
+/// A run that went astray, and nobody noticed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unseen {
+    /// The case: `--shard` with it and the number of all cases runs it alone.
+    pub case: u64,
+    /// The scenario it was in.
+    pub scenario: &'static str,
+    /// How far the tip was from where it would have been, mm.
+    pub astray_mm: f64,
+}
+
 /// The campaign's outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -50,6 +61,8 @@ pub struct Report {
     pub watch_instructions: Option<u32>,
     /// A row for each thing that was spoilt.
     pub rows: Vec<Row>,
+    /// What went astray unseen.
+    pub unseen: Vec<Unseen>,
 }
 
 impl Report {
@@ -62,6 +75,7 @@ impl Report {
             runs: found.len(),
             watch_instructions: found.iter().filter_map(|found| found.watch_instructions).max(),
             rows: KINDS.iter().map(row).collect(),
+            unseen: found.iter().filter(|found| matches!(found.came, Came::Astray { .. })).map(unseen).collect(),
         }
     }
 
@@ -74,6 +88,15 @@ impl Report {
             _ => true,
         })
     }
+}
+
+fn unseen(found: &Found) -> Unseen {
+    Unseen { case: found.case, scenario: found.scenario, astray_mm: mm(found.astray_m) }
+}
+
+/// To a tenth, mm.
+fn mm(m: f64) -> f64 {
+    (m * 1e4).round() / 10.0
 }
 
 fn row(name: &'static str, found: &[&Found]) -> Row {
@@ -97,6 +120,6 @@ fn row(name: &'static str, found: &[&Found]) -> Row {
         off_ms: offs().map(|(_, after)| after).max(),
         slight: count(|came| matches!(came, Came::Slight { .. })),
         astray: count(|came| matches!(came, Came::Astray { .. })),
-        astray_mm: (farthest_m * 1e4).round() / 10.0,
+        astray_mm: mm(farthest_m),
     }
 }

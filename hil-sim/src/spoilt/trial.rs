@@ -37,6 +37,9 @@ pub(super) enum Came {
 /// A run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Found {
+    /// Which case it was, and of which scenario.
+    pub(super) case: u64,
+    pub(super) scenario: &'static str,
     pub(super) what: What,
     pub(super) came: Came,
     /// How far the tip was from where it would have been while the outputs were on, m.
@@ -121,7 +124,8 @@ pub(super) fn run(stages: &[Stage], image: &Image, seed: u64, index: u64) -> Res
     };
     let found = judged(stage, &place, &log, what, at_tick);
     let watch_instructions = place.finish().map_err(|error| error.to_string())?;
-    Ok(Found { watch_instructions, ..found })
+    let scenario = SCENARIOS[index as usize % SCENARIOS.len()];
+    Ok(Found { case: index, scenario, watch_instructions, ..found })
 }
 
 fn judged(stage: &Stage, place: &Spoilt, log: &Log, what: What, at_tick: u32) -> Found {
@@ -142,7 +146,7 @@ fn judged(stage: &Stage, place: &Spoilt, log: &Log, what: What, at_tick: u32) ->
         None if astray_m <= SLIGHT_M => Came::Slight { astray_m },
         None => Came::Astray { astray_m },
     };
-    Found { what, came, astray_m, watch_instructions: None }
+    Found { case: 0, scenario: "", what, came, astray_m, watch_instructions: None }
 }
 
 fn is_off(pins: &Pins) -> bool {

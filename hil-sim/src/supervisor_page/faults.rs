@@ -43,7 +43,9 @@ motion. The tests named below print what they measured, and the wait before it.
 A healthy actuator starts 0 to 250 ms after its command, follows it with a lag of up to 0.1 s, overshoots by up to one and a half times (a
 weight drives the oil faster than the pump), and runs on for up to 2 s after that dead time, from at most 1.25 times the fastest speed of the last
 second; a released speed may ring back, of a standing one half may bounce back off soil. A mass on closed oil swings for seconds: released, it
-may swing back at 1.25 times what it was seen to swing out, a memory that fades within a second.
+may swing back at 1.25 times what it was seen to swing out, a memory that fades within a second. But what swings comes back: a released
+cylinder may be beyond the straight line, on which the speed it was measured at falls to rest 2 s after the release, for 256 ms at most, half a
+swing at 2 Hz; longer, and its spool sticks open. A swing motor coasts for as long as its brake valves let it.
 Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 56 ms is motion *uncommanded* or *against the command*. The slowest
 healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 96 ms and 5 mm of predicted
 travel is *stuck*, a living sensor's noise never stands still so long; one that keeps its noise is stuck when the driven side's pressure is
@@ -54,8 +56,9 @@ full speeds and the sensors' noise.
 
 /// What the diagnosis cannot see.
 pub const NOT_SEEN: &str = "\
-Not seen here: motion slower than the margin; a sensor that keeps its noise but stands while the pressures are unknown (it looks like a stall); the
-loss of a noise narrower than three codes; an error of gain or offset that grows slower than a jump, as long as motion keeps its direction.
+Not seen here: motion slower than the margin; a spool that sticks open, while its cylinder moves no longer than a healthy one may run on; a sensor
+that keeps its noise but stands while the pressures are unknown (it looks like a stall); the loss of a noise narrower than three codes; an error
+of gain or offset that grows slower than a jump, as long as motion keeps its direction.
 ";
 
 const TABLE: &str = "\
