@@ -287,7 +287,8 @@ fn a_fault_during_the_self_test_does_not_get_round_it() {
 
 #[test]
 fn a_machine_at_work_goes_on_the_short_way_and_nothing_wrong_does() {
-    let goes_on = |spoil: &dyn Fn(&mut Inputs, &mut Watched)| {
+    type Spoil<'a> = &'a dyn Fn(&mut Inputs, &mut Watched);
+    let goes_on = |spoil: Spoil<'_>| {
         let mut b = Bench::running();
         b.inputs.command = asking(Request::Path);
         spoil(&mut b.inputs, &mut b.watched);
@@ -295,7 +296,7 @@ fn a_machine_at_work_goes_on_the_short_way_and_nothing_wrong_does() {
         b.supervisor.goes_on(&b.inputs, (b.watched.supply_v, b.watched.sensor_supply_v), faulty)
     };
     assert!(goes_on(&|_, _| {}) && goes_on(&|_, watched| watched.moving = true));
-    let spoilt: [&dyn Fn(&mut Inputs, &mut Watched); 12] = [
+    let spoilt: [Spoil<'_>; 12] = [
         &|inputs, _| inputs.enable = false,
         &|inputs, _| inputs.emergency_stop = true,
         &|inputs, _| inputs.overrun = true,
