@@ -12,6 +12,7 @@ use firmware::store::{Bucket, MAX_BUCKETS, Name, Sealed, StoredRecord, parameter
 use firmware::{Ecu, Parameters};
 
 type Spoil = fn(&mut Parameters);
+type SetTo = fn(&mut Parameters, f32);
 
 fn dig(p: &mut Parameters) -> &mut DigParameters {
     p.dig.as_mut().expect("a dig")
@@ -216,7 +217,7 @@ fn every_value_of_law_path_and_plane_out_of_its_range_is_refused_by_name() {
 }
 
 /// Ends of ranges that lie between two values of the type they are stored in: written as a decimal, each is rounded out of its range or into it.
-const ENDS: [(&str, f32, fn(&mut Parameters, f32)); 13] = [
+const ENDS: [(&str, f32, SetTo); 13] = [
     ("motion.law.bias_limit_mps", 0.1, |p, x| law(p).bias_limit_mps = x),
     ("motion.law.rest_zone_m", 0.05, |p, x| law(p).rest_zone_m = x),
     ("motion.law.acceleration", -0.01, |p, x| law(p).acceleration[2] = x),

@@ -69,7 +69,9 @@ Outside the campaign, and neither detected nor shown:
 
 - A bit of the controller's state that flips while it runs. One block of memory is tried at start-up; after that the images sum up the constants
   that the parameters became, over and over (SR-28), and nothing else: a state changes each tick and there is one copy of it. `cargo hil flips`
-  turns bits of all of it in the emulator and counts what stops the machine, what has no effect, and what goes astray unseen.
+  turns bits of all of it in the emulator and counts what stops the machine, what has no effect, and what goes astray unseen. Of 361 bits of state and
+  of planned motion (`cargo hil flips --seeds 400`) 341 had no effect, 4 stopped the machine, 15 moved the tip by less than 20 mm, and one, of planned
+  motion's memory behind a fence, by 53 mm unseen.
 - A command that is wrong but well formed: a joystick that means something else than its operator, or somebody else's good messages.
 - Wrong geometry or limits that lie within their ranges: a record is only as right as the one who signs it off.
 - A wrong reading that agrees with the machine's motion, of any sensor: each is there once.
