@@ -19,6 +19,12 @@ const MEAN_S: f32 = 0.2;
 /// A tick weighs one load: each is weighed every so many.
 const LOADS: u32 = 3;
 
+/// Of what is weighed now in the mean.
+const SHARE: f32 = LOADS as f32 * TICK_S / MEAN_S;
+
+/// Of the trend of the boom's load nothing counts: it rings on its oil, and a trend is the ringing, larger.
+const OF_BOOM: f32 = 0.0;
+
 /// The same of braking, s.
 const BRAKING_MEAN_S: f32 = 0.1;
 
@@ -27,14 +33,17 @@ const BRAKING_MEAN_S: f32 = 0.1;
 struct Load {
     areas_m2: [f32; 2],
     overrun_n: [f32; 2],
-    /// What it pushes with, N: against a load that shortens it positive. `None` while a pressure is unknown.
-    push_n: Option<f32>,
+    /// What it pushes with, N, against a load that shortens it positive: its mean, and the mean of that. `None` while a pressure is
+    /// unknown.
+    push_n: Option<[f32; 2]>,
+    /// Share of the trend that counts.
+    trend: f32,
     /// What the valve is told of a speed, extending and retracting: 1 but where the load runs ahead.
     told: [f32; 2],
 }
 
 impl Load {
-    const UNKNOWN: (Option<f32>, [f32; 2]) = (None, [1.0; 2]);
+    const UNKNOWN: (Option<[f32; 2]>, [f32; 2]) = (None, [1.0; 2]);
 
     #[inline(always)]
     fn weigh(&mut self, sides: &[Option<f32>; 2]) {
@@ -44,10 +53,13 @@ impl Load {
         };
         let [head_m2, rod_m2] = self.areas_m2;
         let push = head * head_m2 - rod * rod_m2;
-        let mean = self.push_n.unwrap_or(push);
-        let push = mean + (push - mean) * (LOADS as f32 * TICK_S / MEAN_S);
+        let [mean, of_means] = self.push_n.unwrap_or([push; 2]);
+        let mean = mean + (push - mean) * SHARE;
+        let of_means = of_means + (mean - of_means) * SHARE;
+        self.push_n = Some([mean, of_means]);
+        // Of a load that changes steadily either mean is as late as the other: what lies between them is what the first has missed.
+        let push = mean + (mean - of_means) * self.trend;
         let [extend, retract] = self.overrun_n;
-        self.push_n = Some(push);
         self.told = if push < -extend {
             [Real::sqrt(extend / -push), 1.0]
         } else if push > retract {
@@ -82,10 +94,13 @@ impl Overrun {
     pub(super) fn new(p: &LawParameters) -> Self {
         let mut overruns = p.overrun_n.into_iter();
         // As many overruns as areas.
-        let load =
-            |areas_m2| Load { areas_m2, overrun_n: overruns.next().unwrap_or_default(), push_n: None, told: [1.0; 2] };
+        let mut load = |areas_m2, trend| {
+            let overrun_n = overruns.next().unwrap_or_default();
+            Load { areas_m2, overrun_n, push_n: None, trend, told: [1.0; 2] }
+        };
+        let [boom, arm, bucket] = p.areas_m2;
         let swing = Inertia { overrun: p.swing_overrun_radps2, speed: 0.0, braking: 0.0 };
-        Self { swing, loads: p.areas_m2.map(load), turn: 0 }
+        Self { swing, loads: [load(boom, OF_BOOM), load(arm, 1.0), load(bucket, 1.0)], turn: 0 }
     }
 
     /// Nothing is known yet.
@@ -138,7 +153,7 @@ mod tests {
 
     /// A cylinder that extending runs ahead above 1 kN and retracting above 4 kN, with these sides.
     fn told(head_pa: Option<f32>, rod_pa: Option<f32>, speed: f32) -> f32 {
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, told: [1.0; 2] };
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, trend: 1.0, told: [1.0; 2] };
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
         let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
         (0..LOADS).for_each(|_| overrun.weigh(&[[head_pa, rod_pa]; 3]));
@@ -167,9 +182,23 @@ mod tests {
     }
 
     #[test]
+    fn of_a_load_that_changes_steadily_its_value_of_now_counts() {
+        let mut load =
+            Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, trend: 1.0, told: [1.0; 2] };
+        let mut head_pa = 0.8e6;
+        for _ in 0..1000 {
+            head_pa += 1e3;
+            load.weigh(&[Some(head_pa), Some(0.0)]);
+        }
+        let [extending, retracting] = load.told;
+        assert_eq!(extending, 1.0);
+        assert!((4e3 / (retracting * retracting) - head_pa * 0.01).abs() < 20.0, "{retracting}");
+    }
+
+    #[test]
     fn a_swing_runs_ahead_while_it_brakes_and_only_then() {
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None, told: [1.0; 2] };
+        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None, trend: 1.0, told: [1.0; 2] };
         let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
         for sign in [1.0, -1.0] {
             overrun.reset();
