@@ -24,6 +24,11 @@ pub struct Trip {
     pub fault: &'static str,
 }
 
+/// Turning round at full speed is no nominal work of a swing.
+const OF_SWING: f64 = 0.5;
+/// One operator in so many moves one lever at a time: then no other motion excuses what runs on or shakes.
+const ONE_IN: u64 = 4;
+
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -82,7 +87,8 @@ pub fn minute(machine: &MachineFile, seed: u64, run: u64) -> Result<(Scenario, u
     let start = Start { swing_deg: 0.0, boom_m, arm_m, bucket_m };
     let payload_kg = dice.within(0.0, 1000.0);
     let mut scenario = working_scenario(machine, start, RUN_S, payload_kg)?;
-    scenario.task = Task::Levers { start, moves: moves(&mut dice, scenario.begin_s) };
+    let moves = if run % ONE_IN == ONE_IN - 1 { one_at_a_time } else { several }(&mut dice, scenario.begin_s);
+    scenario.task = Task::Levers { start, moves };
     Ok((scenario, case))
 }
 
@@ -101,22 +107,41 @@ fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>
 }
 
 /// Levers held for 0.3 to 4 s, often several at once, a third of them at rest, a fifth of the others full; against the stops too.
-fn moves(dice: &mut Dice, begin_s: f64) -> Vec<LeverMove> {
+fn several(dice: &mut Dice, begin_s: f64) -> Vec<LeverMove> {
+    held(dice, begin_s, |dice, [at_s, until_s]| {
+        let mut lever = || match (dice.within(-1.0, 1.0), dice.with_chance(0.35)) {
+            (_, true) => 0.0,
+            (deflection, _) => often_full(dice, deflection),
+        };
+        let (swing, boom, arm, bucket) = (lever(), lever(), lever(), lever());
+        LeverMove { at_s, until_s, swing: OF_SWING * swing, boom, arm, bucket }
+    })
+}
+
+/// One lever held for 0.3 to 4 s, or none, and another.
+fn one_at_a_time(dice: &mut Dice, begin_s: f64) -> Vec<LeverMove> {
+    held(dice, begin_s, |dice, [at_s, until_s]| {
+        let deflection = dice.within(-1.0, 1.0);
+        let deflection = often_full(dice, deflection);
+        let mut levers = [0.0; 5];
+        if let Some(lever) = levers.get_mut(dice.within(0.0, 5.0) as usize) {
+            *lever = deflection;
+        }
+        let [swing, boom, arm, bucket, _] = levers;
+        LeverMove { at_s, until_s, swing: OF_SWING * swing, boom, arm, bucket }
+    })
+}
+
+fn often_full(dice: &mut Dice, deflection: f64) -> f64 {
+    if dice.with_chance(0.2) { deflection.signum() } else { deflection }
+}
+
+fn held(dice: &mut Dice, begin_s: f64, lever_move: impl Fn(&mut Dice, [f64; 2]) -> LeverMove) -> Vec<LeverMove> {
     let mut moves = Vec::new();
     let mut at_s = begin_s;
     while at_s < RUN_S - 1.0 {
         let until_s = (at_s + dice.within(0.3, 4.0)).min(RUN_S - 1.0);
-        let mut lever = || {
-            let deflection = dice.within(-1.0, 1.0);
-            match (dice.with_chance(0.35), dice.with_chance(0.2)) {
-                (true, _) => 0.0,
-                (_, true) => deflection.signum(),
-                _ => deflection,
-            }
-        };
-        let (swing, boom, arm, bucket) = (lever(), lever(), lever(), lever());
-        // Turning round at full speed is no nominal work of a swing.
-        moves.push(LeverMove { at_s, until_s, swing: 0.5 * swing, boom, arm, bucket });
+        moves.push(lever_move(dice, [at_s, until_s]));
         at_s = until_s;
     }
     moves

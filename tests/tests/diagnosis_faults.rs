@@ -260,7 +260,7 @@ fn a_spool_stuck_open_is_named_when_its_cylinder_goes_on_longer_than_it_could_ri
             let (at, fault, cylinder) = stuck_open(seed, share * FULL_MPS);
             assert_eq!(fault, Fault::Uncommanded(cylinder));
             // A healthy one falls to rest from 250 ms to 2 s after the release, in a straight line from what was measured (four standard
-            // deviations of 2.6 mm/s above the speed); and 0.03 m/s. Half a swing of 2 Hz longer, and it does not ring.
+            // deviations of 2.6 mm/s above the speed); and 0.03 m/s. Half a swing of 1.45 Hz longer, and it does not ring.
             let beyond = |noise_mps: f64| {
                 let speed = share * FULL_MPS;
                 let line = |ms: f64| (speed + noise_mps) * (1.0 - (ms - 250.0) / 1750.0) + 0.03;

@@ -158,7 +158,7 @@ impl Channel {
         // A swing motor, which has no sides here, coasts for as long as its brake valves let it.
         let goes_on = sides.is_some() && self.envelope.goes_on(model, speed, margin);
         self.going_on = if goes_on { self.going_on.saturating_add(1) } else { 0 };
-        let sides = sides.filter(|_| others == 0.0);
+        let sides = sides.filter(|_| others == 0.0 && self.envelope.settled());
         let stuck = self.stuck.follow(&self.limits, self.envelope.sure(), codes, self.unit, (free, sides));
         if inside && !stuck && self.going_on < GOING_ON_ROUNDS && self.wrong.is_none() {
             self.outside = 0;

@@ -130,6 +130,13 @@ impl Envelope {
         self.sure
     }
 
+    /// What ran on from before is at most twice the speed there must be: below, its ringing may stand still for a while.
+    #[inline(always)]
+    pub(super) fn settled(&self) -> bool {
+        let sure = if self.sure > 0.0 { self.sure } else { -self.sure };
+        self.fastest() <= 2.0 * sure
+    }
+
     /// The fastest it may run on.
     #[inline(always)]
     pub(super) fn fastest(&self) -> f32 {
@@ -137,13 +144,18 @@ impl Envelope {
         if out > back { out } else { back }
     }
 
-    /// Whether it is released and faster, by more than this margin, than what does not ring may still be.
+    /// Whether it is released and faster, by more than this margin, than what does not ring may still be. What comes back the other way
+    /// rings.
     #[inline(always)]
     pub(super) fn goes_on(&self, model: &Model, speed: f32, margin: f32) -> bool {
-        let (speed, run_on) = if speed > 0.0 { (speed, self.out) } else { (-speed, self.back) };
+        let (speed, run_on, other) =
+            if speed > 0.0 { (speed, self.out, self.back) } else { (-speed, self.back, self.out) };
         let [of_level, of_slope] = model.line;
         let beyond = speed - margin;
-        self.released && beyond > 0.0 && beyond > of_level * run_on.level - of_slope * run_on.slope
+        self.released
+            && run_on.level > other.level
+            && beyond > 0.0
+            && beyond > of_level * run_on.level - of_slope * run_on.slope
     }
 
     /// One round under this command with this measured speed, `turned` at the end of every span.
@@ -187,7 +199,8 @@ impl Envelope {
         self.sure += (must - self.sure) * model.lag_share;
         let bounce = model.calmer * command;
         let (bounce_out, bounce_back) = if command > 0.0 { (bounce, 0.0) } else { (0.0, -bounce) };
-        let [swung_out, swung_back] = if self.released { self.swung } else { [0.0; 2] };
+        // A small command does not end what rings.
+        let [swung_out, swung_back] = self.swung;
         let larger = |a: f32, b: f32| if a > b { a } else { b };
         let rung_back = larger(model.ring * out, MEASURED * swung_out);
         let rung_out = larger(model.ring * back, MEASURED * swung_back);

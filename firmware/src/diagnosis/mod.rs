@@ -29,8 +29,8 @@ const ROUND_TICKS: u8 = 8;
 const ROUND_S: f32 = 8.0 * TICK_S;
 /// So many rounds outside the envelope, or standing though free, are a fault: 56 ms.
 const OUTSIDE_ROUNDS: u8 = 7;
-/// So many rounds beyond what does not ring are a fault: 256 ms, longer than half a swing at 2 Hz.
-const GOING_ON_ROUNDS: u8 = 32;
+/// So many rounds beyond what does not ring are a fault: 344 ms, half a swing at 1.45 Hz.
+const GOING_ON_ROUNDS: u8 = 43;
 /// So many rounds without any change of a noisy code are no chance: 96 ms.
 const QUIET_ROUNDS: u8 = 12;
 /// A jump stays a fault for so many rounds after the last: 104 ms.

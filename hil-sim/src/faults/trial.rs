@@ -22,8 +22,8 @@ const LATEST_S: f64 = 0.352;
 const FALL_S: f64 = 1.75;
 /// What measured speed may be wrong by, m/s.
 const MARGIN_MPS: f64 = 0.03;
-/// Half a swing of a mass that rings at 2 Hz, s.
-const HALF_SWING_S: f64 = 0.25;
+/// Half a swing of a mass that rings at 1.45 Hz, s.
+const HALF_SWING_S: f64 = 0.344;
 
 /// What came of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
