@@ -10,7 +10,9 @@
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
-pub use reference::{differences, golden, jacobians, machines, measure, oracle, papers, rates, stated, sweep, wide};
+pub use reference::{
+    differences, golden, jacobians, machines, measure, obstacle_kit, oracle, papers, rates, stated, sweep, wide,
+};
 
 pub mod boards;
 pub mod browser;

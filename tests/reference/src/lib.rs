@@ -7,6 +7,7 @@
 //! - [`sweep`], [`measure`], [`stated`]: lengths over whole strokes, the worst error found, what `docs/accuracy.md` states;
 //! - [`rates`]: rates at random poses, and their references;
 //! - [`jacobians`]: Jacobians with known singular values;
+//! - [`obstacle_kit`]: a machine with its hull, for planning past obstacles;
 //! - [`papers`]: the papers' formulas as printed, for the tests of their errata.
 //!
 //! It depends on nothing above `kinematics-core`: so does `tests/kinematics.rs`, all tests of that crate in one binary, which a
@@ -17,6 +18,7 @@ pub mod golden;
 pub mod jacobians;
 pub mod machines;
 pub mod measure;
+pub mod obstacle_kit;
 pub mod oracle;
 pub mod papers;
 pub mod rates;
