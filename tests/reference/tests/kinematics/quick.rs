@@ -20,6 +20,8 @@ mod forces;
 mod fuzz;
 #[path = "../../../tests/golden.rs"]
 mod golden;
+#[path = "../../../tests/obstacle_routes.rs"]
+mod obstacle_routes;
 #[path = "../../../tests/obstacle_step.rs"]
 mod obstacle_step;
 #[path = "../../../tests/oracle.rs"]
