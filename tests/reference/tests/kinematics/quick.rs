@@ -2,6 +2,8 @@
 
 #[path = "../../../tests/clearance.rs"]
 mod clearance;
+#[path = "../../../tests/cylinder_path.rs"]
+mod cylinder_path;
 #[path = "../../../tests/errata_frankel.rs"]
 mod errata_frankel;
 #[path = "../../../tests/errata_hareesha.rs"]
