@@ -16,6 +16,8 @@ mod errata_koivo_rates;
 mod errata_park;
 #[path = "../../../tests/fence.rs"]
 mod fence;
+#[path = "../../../tests/fence_bounds.rs"]
+mod fence_bounds;
 #[path = "../../../tests/forces.rs"]
 mod forces;
 #[path = "../../../tests/fuzz.rs"]
