@@ -243,3 +243,23 @@ fn a_number_beyond_a_kilometre_is_refused_by_its_field_before_it_becomes_an_infi
         }
     }
 }
+
+#[test]
+fn a_bucket_stroke_that_folds_is_named_by_the_end_that_is_nearer_to_the_fold() {
+    // exact-mini's linkage as it is folds nowhere from 0.84 to 1.26 m; on the way out it must at the rocker's reach.
+    let whole = PinGeometry::EXACT_MINI;
+    for (min_m, max_m) in [(0.84, 1.9), (0.84, 1.6), (1.2, 1.6)] {
+        let mut g = whole;
+        g.bucket.stroke = Stroke { min_m, max_m };
+        let (field, at) = match refused(&g) {
+            GeometryError {
+                field, problem: Problem::Folds { length_m } | Problem::DoesNotClose { length_m }, ..
+            } => (field, length_m),
+            other => panic!("{other:?}"),
+        };
+        assert!(at > 1.26, "{field}: {at}");
+        let nearer = if at <= 0.5 * (min_m + max_m) { "bucket.min_m" } else { "bucket.max_m" };
+        println!("{min_m}…{max_m}: {field} at {at}");
+        assert_eq!(field, nearer, "{at}");
+    }
+}
