@@ -13,7 +13,7 @@ const WANTED_PERCENT: usize = 90;
 /// Where the results go.
 const FOLDER: &str = "target/mutants";
 /// An endless loop is ended after so long, on a machine that does other work besides; whole sweeps take longer.
-const TIMEOUT_S: [&str; 2] = ["90", "900"];
+const TIMEOUT_S: [&str; 2] = ["150", "900"];
 
 /// What may be mutated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,23 +43,18 @@ impl Subject {
     }
 }
 
-/// Tests of over a second where nothing is optimised: only what the others do not catch is tried by them, optimised.
-const SLOW: [&str; 17] = [
+/// Tests of seconds where nothing is optimised: only what the others do not catch is tried by them, optimised.
+const SLOW: [&str; 12] = [
     "accuracy::",
     "errors::an_angle_gets",
-    "isotropy::newton",
+    "isotropy::newton_finds",
     "joint_limits::joints_stay",
-    "least_effort::a_ceiling",
     "least_effort::a_path_never",
     "random_search",
-    "rates::koivos_31",
-    "rates::moment_arms_and",
-    "rates::second_derivatives",
     "rates_floor::",
     "rates_jacobians::jacobians_in",
     "rates_search::",
     "time_scaling::curved_moves",
-    "time_scaling::in_f32",
     "time_scaling::less_speed",
     "time_scaling::no_bound",
 ];
