@@ -210,3 +210,29 @@ fn single_precision_finds_the_same_clearances_to_a_few_micrometres() {
         }
     });
 }
+
+#[test]
+fn an_outline_not_given_is_that_of_a_20_t_excavator_in_shares_of_the_reach() {
+    for (name, g) in machines::all().unwrap() {
+        let shape = OutlineShape::of(&g);
+        // Of 10 m of reach: boom 0.6 m thick, arm 0.44 m, cylinders 0.2 m, links 0.2 m, plates 6 cm; widths likewise.
+        let in_ten_metres = [
+            (shape.boom_radius_m, 0.3),
+            (shape.boom_half_width_m, 0.3),
+            (shape.arm_radius_m, 0.22),
+            (shape.arm_half_width_m, 0.22),
+            (shape.cylinder_radius_m, 0.1),
+            (shape.boom_cylinder_half_width_m, 0.45),
+            (shape.link_radius_m, 0.1),
+            (shape.link_half_width_m, 0.3),
+            (shape.bucket_radius_m, 0.03),
+            (shape.bucket_half_width_m, 0.6),
+        ];
+        for (found, wanted) in in_ten_metres {
+            assert!((found * 10.0 / g.reach_m() - wanted).abs() < 1e-12, "{name}: {found}");
+        }
+        let knee = [0.5 * (g.boom.rod.x + g.arm.base.x), 0.5 * (g.boom.rod.z + g.arm.base.z)];
+        assert_eq!([shape.boom_knee.x, shape.boom_knee.z], knee);
+        assert_eq!([shape.bucket_back.x, shape.bucket_back.z], [0.6 * g.bucket_m, 0.45 * g.bucket_m]);
+    }
+}

@@ -88,13 +88,13 @@ fn slope_curvature_and_third_derivative_are_the_differences_of_lengths() {
             let h = 0.1 * (pair[1] - pair[0]);
             let s = pair[0] + (pair[1] - pair[0]) * (0.25 + 0.5 * random.unit());
             let points: [PathPoint<f64>; 5] = core::array::from_fn(|i| path.at(s + (i as f64 - 2.0) * h));
-            let l = points.map(|point| array(&point.lengths));
+            let found = points[2];
             for i in 0..3 {
+                let [first, before, here, after, last] = points.map(|point| array(&point.lengths)[i]);
                 // Exact for a cubic.
-                let third = (l[4][i] - 2.0 * l[3][i] + 2.0 * l[1][i] - l[0][i]) / (2.0 * h * h * h);
-                let second = (l[3][i] - 2.0 * l[2][i] + l[1][i]) / (h * h);
-                let first = (l[3][i] - l[1][i]) / (2.0 * h) - third * h * h / 6.0;
-                let found = points[2];
+                let third = (last - 2.0 * after + 2.0 * before - first) / (2.0 * h * h * h);
+                let second = (after - 2.0 * here + before) / (h * h);
+                let first = (after - before) / (2.0 * h) - third * h * h / 6.0;
                 assert!((found.slope[i] - first).abs() < 1e-12 / h, "{first} {found:?}");
                 assert!((found.curvature[i] - second).abs() < 1e-12 / (h * h), "{second} {found:?}");
                 assert!((found.third[i] - third).abs() < 1e-11 / (h * h * h), "{third} {found:?}");

@@ -3,7 +3,7 @@
 use cross_tests::machines;
 use cross_tests::obstacle_kit::{Kit, SPEEDS_RAD_S, rotors, wrapped};
 use cross_tests::sweep::Random;
-use kinematics_core::planning::avoid::AvoidParameters;
+use kinematics_core::planning::avoid::{Avoid, AvoidError, AvoidParameters};
 use kinematics_core::planning::hull::{Flesh, Hull, Near};
 use kinematics_core::{PinGeometry, Rotor, Vec2};
 use libm::{cos, hypot, sin};
@@ -187,8 +187,8 @@ fn next_to_its_aim_a_step_slows_down_over_the_time_to_settle() {
     let way = [0.02, -0.01, 0.015, -0.02];
     let to = core::array::from_fn(|i| from[i] + way[i]);
     let step = kit.avoid.step(&rotors(from), &kit.avoid.aim(&rotors(to)), &[]);
-    for i in 0..4 {
-        assert!((step.rates[i] - way[i] / kit.parameters.settle_s).abs() < 1e-5, "{step:?}");
+    for (rate, way) in step.rates.iter().zip(way) {
+        assert!((rate - way / kit.parameters.settle_s).abs() < 1e-5, "{step:?}");
     }
     assert!((step.to_go_s - 0.01 / 0.45).abs() < 1e-4 && (step.pace - longest(step.rates)).abs() < 1e-12, "{step:?}");
 }
@@ -322,5 +322,34 @@ fn joints_advance_by_their_rates_and_stay_of_unit_length() {
         let exact = Rotor::from_angle(from[i] + 0.01 * rates[i]);
         assert!(hypot(after[i].cos - exact.cos, after[i].sin - exact.sin) < 1e-6, "{i}");
         assert!((hypot(after[i].cos, after[i].sin) - 1.0).abs() < 1e-12, "{i}");
+    }
+}
+
+#[test]
+fn parameters_by_rule_go_by_reach_and_by_delay_and_what_is_out_of_range_is_named() {
+    let rule = AvoidParameters::of_reach(8.0, SPEEDS_RAD_S);
+    assert_eq!((rule.speeds_rad_s, rule.approach_s, rule.settle_s), (SPEEDS_RAD_S, 0.3, 0.25));
+    assert!((rule.stop_m - 0.08).abs() < 1e-12 && (rule.trusted_mps - 0.16).abs() < 1e-12);
+    assert_eq!(rule.with_delay(0.1), rule);
+    let late = rule.with_delay(0.25);
+    assert_eq!(late, AvoidParameters { approach_s: 0.75, settle_s: 0.75, ..rule });
+
+    let kit = &kits()[0];
+    let refused = |p: AvoidParameters| Avoid::new(&kit.geometry, kit.hull, &p).unwrap_err();
+    for bad in [0.0, -1.0, f64::NAN, 1e6] {
+        for joint in 0..4 {
+            let mut p = rule;
+            p.speeds_rad_s[joint] = bad;
+            assert_eq!(refused(p), AvoidError::Speed { joint });
+        }
+        for (p, field) in [
+            (AvoidParameters { stop_m: bad, ..rule }, "stop_m"),
+            (AvoidParameters { approach_s: bad, ..rule }, "approach_s"),
+            (AvoidParameters { settle_s: bad, ..rule }, "settle_s"),
+            (AvoidParameters { trusted_mps: bad, ..rule }, "trusted_mps"),
+        ] {
+            assert_eq!(refused(p), AvoidError::NotPositive { field });
+            assert!(refused(p).to_string().contains(field));
+        }
     }
 }

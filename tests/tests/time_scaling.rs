@@ -251,3 +251,28 @@ fn curved_moves_stay_near_a_bound_that_no_jerk_limited_move_can_reach() {
     // A single place that wants little jerk sets it for the whole path: a few moves are far slower than they need to be.
     assert!(median < 1.25 && most < 2.2, "{median} {most}");
 }
+
+#[test]
+fn the_rate_the_acceleration_and_the_jerk_told_are_the_differences_of_the_way() {
+    let mut stream = Random::new(89);
+    for _ in 0..3 {
+        let (knots, limits) = random_move(&mut stream);
+        let limits = Limits::<f64>::new(&limits).unwrap();
+        let path = CylinderPath::new(&knots, &limits).unwrap();
+        let mut scaling = TimeScaling::standstill();
+        scaling.plan(&path, &limits, TICK_S).unwrap();
+        let mut pace = Pace::start();
+        let mut before = pace.progress();
+        let mut ticks = 0;
+        while !before.done && ticks < LONGEST {
+            // Less is asked for now and then.
+            let share = if ticks % 900 < 300 { 0.3 } else { 1.0 };
+            let now = scaling.advance(&mut pace, share);
+            assert!(((now.s - before.s) / TICK_S - now.rate).abs() < 1e-9, "{now:?} {before:?}");
+            assert!(((now.rate - before.rate) / TICK_S - now.acceleration).abs() < 1e-8, "{now:?} {before:?}");
+            assert!(((now.acceleration - before.acceleration) / TICK_S - now.jerk).abs() < 1e-6, "{now:?} {before:?}");
+            (before, ticks) = (now, ticks + 1);
+        }
+        assert!(before.done && before.s == 1.0);
+    }
+}
