@@ -236,3 +236,23 @@ fn an_outline_not_given_is_that_of_a_20_t_excavator_in_shares_of_the_reach() {
         assert_eq!([shape.bucket_back.x, shape.bucket_back.z], [0.6 * g.bucket_m, 0.45 * g.bucket_m]);
     }
 }
+
+#[test]
+fn a_ball_about_a_point_of_the_strips_own_plane_still_has_a_direction_to_leave_by() {
+    for_every_stand(97, 5, |name, stand, _| {
+        let (swing, placed) = stand.place(stand.angles);
+        for strip in &placed.strips {
+            let [from, to] = &strip.ends;
+            // Of a strip in the plane, half-way along it.
+            let strip = Strip { lateral: 0.0, ..*strip };
+            let centre = stand.in_world(swing, [0.5 * (from.at.x + to.at.x), 0.0, 0.5 * (from.at.z + to.at.z)]);
+            let clearance = strip.to_sphere(&Sphere { centre, radius: 0.1 }.seen(&stand.base, swing));
+            assert!((clearance.distance + 0.1 + strip.radius).abs() < 1e-9, "{name}: {clearance:?}");
+            assert!(clearance.approach.iter().all(|a| a.is_finite()), "{name}: {clearance:?}");
+        }
+        let at = placed.strips[0].ends[0];
+        let point = Strip { ends: [at, at], lateral: 0.0, radius: 0.05 };
+        let inside = point.to_sphere(&Sphere { centre: [at.at.x, 0.0, at.at.z], radius: 0.1 });
+        assert!((inside.distance + 0.15).abs() < 1e-15 && inside.approach.iter().all(|a| a.is_finite()), "{inside:?}");
+    });
+}

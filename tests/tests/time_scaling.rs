@@ -92,19 +92,31 @@ fn run<T: Real>(
     }
 }
 
-#[test]
-fn no_bound_is_ever_exceeded_and_every_move_ends() {
-    let mut stream = Random::new(7);
+/// The largest shares of speed, acceleration, jerk and flow over so many random moves.
+fn worst_of(moves: usize, seed: u64) -> [f64; 4] {
+    let mut stream = Random::new(seed);
     let mut worst = [0.0_f64; 4];
-    for _ in 0..300 {
+    for _ in 0..moves {
         let (knots, limits) = random_move(&mut stream);
         let used = run::<f64>(&knots, &limits, |_| 1.0).unwrap_or_else(|e| panic!("{e}: {limits:?}"));
         let all = [used.speed, used.acceleration, used.jerk, used.flow];
         worst = std::array::from_fn(|i| worst[i].max(all[i]));
     }
+    worst
+}
+
+#[test]
+fn no_bound_is_ever_exceeded_and_every_move_ends() {
+    let worst = worst_of(300, 7);
     println!("largest share of speed, acceleration, jerk, flow: {worst:.4?}");
     assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6), "{worst:?}");
     assert!(worst.iter().all(|share| *share > 0.9), "a limit is never used: {worst:?}");
+}
+
+#[test]
+fn a_score_of_other_moves_keeps_its_bounds_and_uses_them() {
+    let worst = worst_of(20, 101);
+    assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6 && *share > 0.8), "{worst:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::process::{Outcome, announce, capture, cargo, command as program, line, root, run};
+use crate::process::{Outcome, announce, capture, cargo, line, root, run};
 
 /// The version tried.
 const VERSION: &str = "27.1.0";
@@ -44,7 +44,7 @@ impl Subject {
 }
 
 /// Tests of seconds where nothing is optimised: only what the others do not catch is tried by them, optimised.
-const SLOW: [&str; 12] = [
+const SLOW: [&str; 13] = [
     "accuracy::",
     "errors::an_angle_gets",
     "isotropy::newton_finds",
@@ -55,6 +55,7 @@ const SLOW: [&str; 12] = [
     "rates_jacobians::jacobians_in",
     "rates_search::",
     "time_scaling::curved_moves",
+    "time_scaling::in_f32",
     "time_scaling::less_speed",
     "time_scaling::no_bound",
 ];

@@ -46,5 +46,7 @@ mod redundancy;
 mod rotor;
 #[path = "../../../tests/singular_values.rs"]
 mod singular_values;
+#[path = "../../../tests/tip_path.rs"]
+mod tip_path;
 #[path = "../../../tests/validation.rs"]
 mod validation;
