@@ -183,6 +183,29 @@ fn newton_finds_the_same_configurations_of_random_chains_and_of_all_machines() {
 }
 
 #[test]
+fn what_is_found_of_chains_of_any_proportion_is_isotropic_by_the_trigonometric_jacobian() {
+    let mut random = Random::new(103);
+    let (mut found, mut chains) = (0, 0);
+    for _ in 0..300 {
+        let lengths = [0.4 + random.unit(), 0.4 + random.unit(), 0.4 + random.unit()];
+        let all: Vec<IsotropicConfiguration> = isotropic_configurations(lengths).into_iter().flatten().collect();
+        for one in &all {
+            let (arm, bucket) = (one.arm.angle(), one.bucket.angle());
+            let j = jacobian(lengths, [0.3, arm, bucket]);
+            let condition = condition_number(&j).unwrap();
+            assert!((condition - 1.0).abs() < 1e-7, "{lengths:?} {one:?}: {condition}");
+            let [x, _] = j;
+            assert!((x.iter().map(|a| a * a).sum::<f64>().sqrt() - one.sigma).abs() < 1e-7, "{one:?}");
+        }
+        // With each its mirror image.
+        assert!(all.len() % 2 == 0, "{lengths:?}");
+        (found, chains) = (found + all.len(), chains + usize::from(!all.is_empty()));
+    }
+    println!("{found} of {chains} chains");
+    assert!(chains > 50 && found >= 4 * chains / 2, "{found} {chains}");
+}
+
+#[test]
 fn lengths_that_are_no_lengths_have_no_configurations() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for place in 0..3 {

@@ -133,6 +133,8 @@ fn pass(
     which: &[String],
     skipped: &[&str],
 ) -> Outcome<Results> {
+    let results = root().join(folder);
+    fs::create_dir_all(&results).map_err(|error| format!("{folder} cannot be made: {error}"))?;
     let mut mutants = cargo();
     mutants.args(["mutants", "--no-shuffle", "-C=--package=reference", "--output", folder]);
     mutants.args([format!("--profile={profile}"), format!("--timeout={timeout}")]);
@@ -142,7 +144,7 @@ fn pass(
     // The first failure is enough, which the stable harness does not know.
     mutants.env("RUSTC_BOOTSTRAP", "1").env("PROPTEST_CASES", "32").env_remove("CARGO_TARGET_DIR");
     status(&mut mutants)?;
-    Ok(Results::read(&root().join(folder)))
+    Ok(Results::read(&results))
 }
 
 /// Runs cargo-mutants, which tells missed mutants (2) and time outs (3) from what keeps it from working.
