@@ -183,6 +183,11 @@ fn newton_finds_the_same_configurations_of_random_chains_and_of_all_machines() {
 }
 
 #[test]
+fn a_chain_with_a_short_arm_has_all_the_configurations_newton_does() {
+    assert!(same_as_newton([1.3, 0.9, 0.8]) > 0);
+}
+
+#[test]
 fn what_is_found_of_chains_of_any_proportion_is_isotropic_by_the_trigonometric_jacobian() {
     let mut random = Random::new(103);
     let (mut found, mut chains) = (0, 0);
