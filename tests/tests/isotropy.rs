@@ -203,7 +203,7 @@ fn what_is_found_of_chains_of_any_proportion_is_isotropic_by_the_trigonometric_j
             assert!((x.iter().map(|a| a * a).sum::<f64>().sqrt() - one.sigma).abs() < 1e-7, "{one:?}");
         }
         // With each its mirror image.
-        assert!(all.len() % 2 == 0, "{lengths:?}");
+        assert!(all.len().is_multiple_of(2), "{lengths:?}");
         (found, chains) = (found + all.len(), chains + usize::from(!all.is_empty()));
     }
     println!("{found} of {chains} chains");
