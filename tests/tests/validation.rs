@@ -245,21 +245,27 @@ fn a_number_beyond_a_kilometre_is_refused_by_its_field_before_it_becomes_an_infi
 }
 
 #[test]
-fn a_bucket_stroke_that_folds_is_named_by_the_end_that_is_nearer_to_the_fold() {
-    // exact-mini's linkage as it is folds nowhere from 0.84 to 1.26 m; on the way out it must at the rocker's reach.
+fn a_bucket_stroke_over_the_fold_is_named_by_the_end_that_is_nearer_to_it() {
+    // exact-mini's linkage folds nowhere from 0.84 to 1.26 m.
     let whole = PinGeometry::EXACT_MINI;
-    for (min_m, max_m) in [(0.84, 1.9), (0.84, 1.6), (1.2, 1.6)] {
+    let b = whole.bucket;
+    let to_base = b.base - b.rocker_pivot;
+    let side = to_base.norm();
+    // Coupler and bucket pin come in line where the rocker's end is as far from the bucket pin as both are long.
+    let stretched = |length: f64| {
+        let cos = (side * side + b.rocker_m * b.rocker_m - length * length) / (2.0 * side * b.rocker_m);
+        let turn = Vec2::new(cos, -libm::sqrt(1.0 - cos * cos));
+        let common = b.rocker_pivot + turn.complex_mul(to_base).scale(b.rocker_m / side);
+        (common - Vec2::new(whole.arm_m, 0.0)).norm() > b.coupler_pin.norm() + b.coupler_m
+    };
+    let fold = (0..5_000).map(|i| 1.26 + 1e-5 * f64::from(i)).find(|length| stretched(*length)).unwrap();
+    for (min_m, max_m) in [(0.84, 1.30), (0.84, 1.29), (1.2, 1.30), (1.275, 1.30)] {
         let mut g = whole;
         g.bucket.stroke = Stroke { min_m, max_m };
-        let (field, at) = match refused(&g) {
-            GeometryError {
-                field, problem: Problem::Folds { length_m } | Problem::DoesNotClose { length_m }, ..
-            } => (field, length_m),
-            other => panic!("{other:?}"),
-        };
-        assert!(at > 1.26, "{field}: {at}");
+        let error = refused(&g);
+        let Problem::DoesNotClose { length_m: at } = error.problem else { panic!("{min_m}…{max_m}: {error:?}") };
+        assert!(at >= fold - 1e-5 && at < fold + 1e-3, "{at}, folds at {fold}");
         let nearer = if at <= 0.5 * (min_m + max_m) { "bucket.min_m" } else { "bucket.max_m" };
-        println!("{min_m}…{max_m}: {field} at {at}");
-        assert_eq!(field, nearer, "{at}");
+        assert_eq!(error.field, nearer, "{min_m}…{max_m}: {at}");
     }
 }
