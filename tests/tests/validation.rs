@@ -251,14 +251,14 @@ fn a_bucket_stroke_over_the_fold_is_named_by_the_end_that_is_nearer_to_it() {
     let b = whole.bucket;
     let to_base = b.base - b.rocker_pivot;
     let side = to_base.norm();
-    // Coupler and bucket pin come in line where the rocker's end is as far from the bucket pin as both are long.
-    let stretched = |length: f64| {
+    // Coupler and bucket fold up where the rocker's end comes too near to the bucket pin.
+    let folded = |length: f64| {
         let cos = (side * side + b.rocker_m * b.rocker_m - length * length) / (2.0 * side * b.rocker_m);
         let turn = Vec2::new(cos, -libm::sqrt(1.0 - cos * cos));
         let common = b.rocker_pivot + turn.complex_mul(to_base).scale(b.rocker_m / side);
-        (common - Vec2::new(whole.arm_m, 0.0)).norm() > b.coupler_pin.norm() + b.coupler_m
+        (common - Vec2::new(whole.arm_m, 0.0)).norm() < b.coupler_m - b.coupler_pin.norm()
     };
-    let fold = (0..5_000).map(|i| 1.26 + 1e-5 * f64::from(i)).find(|length| stretched(*length)).unwrap();
+    let fold = (0..5_000).map(|i| 1.26 + 1e-5 * f64::from(i)).find(|length| folded(*length)).unwrap();
     for (min_m, max_m) in [(0.84, 1.30), (0.84, 1.29), (1.2, 1.30), (1.275, 1.30)] {
         let mut g = whole;
         g.bucket.stroke = Stroke { min_m, max_m };
