@@ -4,7 +4,7 @@ use cross_tests::papers::park::figure;
 use cross_tests::papers::{agree, all_agree, rate};
 use kinematics_core::chain_n::PlanarChain;
 use kinematics_core::planning::obstacle::Obstacle;
-use kinematics_core::planning::park::{Direction, link_jacobian, link_velocities, moved, null_term};
+use kinematics_core::planning::park::{Direction, link_jacobian, link_velocities, magnification, moved, null_term};
 use kinematics_core::planning::planner::{Outcome, Planner, PlannerError, PlannerParameters};
 use kinematics_core::redundancy::{null_projector, pseudo_inverse};
 use kinematics_core::svd::SingularValues;
@@ -131,6 +131,16 @@ fn the_links_jacobian_is_the_derivative_of_its_end() {
         let ends = chain().ends(&rotors(pose));
         assert_eq!(link_jacobian(&ends, 3, ends[3])[0].len(), 4);
     }
+}
+
+#[test]
+fn the_magnification_is_the_way_to_the_tip_over_the_links_length_and_none_without_a_link() {
+    let seen = Vec2::new(-1.5, 2.0);
+    for length in [0.5, 1.0, 2.0, 5.0] {
+        let link = Rotor::from_degrees(70.0).to_vec().scale(length);
+        agree("(18)", magnification(seen, link), 2.5 / length, 1e-12);
+    }
+    assert_eq!(magnification(seen, Vec2::new(0.0, 0.0)), 0.0);
 }
 
 #[test]
