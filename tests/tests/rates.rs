@@ -333,3 +333,22 @@ fn a_moment_arm_of_a_micrometre_or_less_is_a_dead_points_and_named_by_its_cylind
         }
     }
 }
+
+#[test]
+fn the_bucket_turns_by_the_sum_of_its_joints_rates_about_the_planes_normal_and_by_the_swing_about_z() {
+    let mut random = Random::new(107);
+    let g = PinGeometry::EXACT_MINI;
+    let machine = Machine::<f64>::new(&g).unwrap();
+    for _ in 0..50 {
+        let joints = machine.cylinders_to_joints(&cylinders(within_strokes(&g, &mut random))).unwrap();
+        let swing = 6.0 * random.unit() - 3.0;
+        let jacobian = machine.chain().swing_jacobian(&joints, Rotor::from_angle(swing));
+        let [boom, arm, bucket, turning] = [0; 4].map(|_| 2.0 * random.unit() - 1.0);
+        let rates = MachineRates { swing: turning, joints: joint_rates([boom, arm, bucket]) };
+        let found = jacobian.angular_velocity(&rates);
+        let pitch = boom + arm + bucket;
+        // Raising turns about the axis to the right of the plane.
+        let exact = [pitch * libm::sin(swing), -pitch * libm::cos(swing), turning];
+        assert!((0..3).all(|i| (found[i] - exact[i]).abs() < 1e-14), "{found:?} {exact:?}");
+    }
+}
