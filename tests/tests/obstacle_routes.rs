@@ -123,6 +123,8 @@ fn ready(kit: &Kit, swing: f64) -> [f64; 4] {
 fn the_quickest_clear_pose_is_gone_to_in_about_its_time() {
     let mut random = Random::new(17);
     let kit = kit();
+    // Of postures five places of the boom, four of the arm, three of the bucket.
+    assert_eq!((PITCHES, GRID), (64, 5 * 4 * 3));
     for _ in 0..6 {
         let (start, goal) = (kit.pose(&mut random), kit.pose(&mut random));
         let target = tip(&kit, goal);
