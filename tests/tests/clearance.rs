@@ -210,3 +210,49 @@ fn single_precision_finds_the_same_clearances_to_a_few_micrometres() {
         }
     });
 }
+
+#[test]
+fn an_outline_not_given_is_that_of_a_20_t_excavator_in_shares_of_the_reach() {
+    for (name, g) in machines::all().unwrap() {
+        let shape = OutlineShape::of(&g);
+        // Of 10 m of reach: boom 0.6 m thick, arm 0.44 m, cylinders 0.2 m, links 0.2 m, plates 6 cm; widths likewise.
+        let in_ten_metres = [
+            (shape.boom_radius_m, 0.3),
+            (shape.boom_half_width_m, 0.3),
+            (shape.arm_radius_m, 0.22),
+            (shape.arm_half_width_m, 0.22),
+            (shape.cylinder_radius_m, 0.1),
+            (shape.boom_cylinder_half_width_m, 0.45),
+            (shape.link_radius_m, 0.1),
+            (shape.link_half_width_m, 0.3),
+            (shape.bucket_radius_m, 0.03),
+            (shape.bucket_half_width_m, 0.6),
+        ];
+        for (found, wanted) in in_ten_metres {
+            assert!((found * 10.0 / g.reach_m() - wanted).abs() < 1e-12, "{name}: {found}");
+        }
+        let knee = [0.5 * (g.boom.rod.x + g.arm.base.x), 0.5 * (g.boom.rod.z + g.arm.base.z)];
+        assert_eq!([shape.boom_knee.x, shape.boom_knee.z], knee);
+        assert_eq!([shape.bucket_back.x, shape.bucket_back.z], [0.6 * g.bucket_m, 0.45 * g.bucket_m]);
+    }
+}
+
+#[test]
+fn a_ball_about_a_point_of_the_strips_own_plane_still_has_a_direction_to_leave_by() {
+    for_every_stand(97, 5, |name, stand, _| {
+        let (swing, placed) = stand.place(stand.angles);
+        for strip in &placed.strips {
+            let [from, to] = &strip.ends;
+            // Of a strip in the plane, half-way along it.
+            let strip = Strip { lateral: 0.0, ..*strip };
+            let centre = stand.in_world(swing, [0.5 * (from.at.x + to.at.x), 0.0, 0.5 * (from.at.z + to.at.z)]);
+            let clearance = strip.to_sphere(&Sphere { centre, radius: 0.1 }.seen(&stand.base, swing));
+            assert!((clearance.distance + 0.1 + strip.radius).abs() < 1e-9, "{name}: {clearance:?}");
+            assert!(clearance.approach.iter().all(|a| a.is_finite()), "{name}: {clearance:?}");
+        }
+        let at = placed.strips[0].ends[0];
+        let point = Strip { ends: [at, at], lateral: 0.0, radius: 0.05 };
+        let inside = point.to_sphere(&Sphere { centre: [at.at.x, 0.0, at.at.z], radius: 0.1 });
+        assert!((inside.distance + 0.15).abs() < 1e-15 && inside.approach.iter().all(|a| a.is_finite()), "{inside:?}");
+    });
+}

@@ -1,10 +1,9 @@
 //! Park et al. 2008: each equation of `docs/errata.md` as printed, which fails, and as corrected, on a planar arm of four links
 //! (the paper does not give its own) in random poses.
 
+use cross_tests::papers::park::{Figure, figure};
 use cross_tests::papers::plain::Matrix;
 use cross_tests::papers::{agree, all_agree, rate};
-use hil_sim::planar_arm::PlanarArm;
-use hil_sim::planar_arm::run::cases;
 use kinematics_core::chain_n::PlanarChain;
 use kinematics_core::planning::obstacle::{Obstacle, nearest};
 use kinematics_core::planning::park::{Direction, link_jacobian, link_velocities, null_term, swept_angle};
@@ -257,7 +256,7 @@ fn park_12_alone_takes_the_tip_through_the_obstacle() {
         }
     }
     // The same in Figure 5's own scenario: straight through as printed, kept away with the obstacle first.
-    let arm = figure_arm();
+    let arm = figure();
     let planner = Planner::new(arm.chain, PlannerParameters { links: [0.0; 4], ..arm.parameters }).unwrap();
     let ring = Obstacle { keep_m: 1e-6, ..arm.obstacle };
     let nearest_of = |obstacle: &Obstacle<f64>| {
@@ -351,18 +350,14 @@ fn park_10_leaves_open_when_the_obstacle_acts_and_how_fast() {
     }
 }
 
-fn figure_arm() -> PlanarArm {
-    PlanarArm::from_toml(include_str!("../../scenarios/obstacle-park.toml")).unwrap()
-}
-
 #[test]
 fn park_figures_5_and_6_lack_arm_obstacle_target_and_s_e() {
     // On the chosen arm the published gains give both figures; with another s_e, which the paper does not say, other iterations.
-    let mut arm = figure_arm();
-    let settled = |arm: &PlanarArm| {
-        let [_, without, with] = cases(arm).unwrap();
-        assert!(matches!(without.outcome, Outcome::NotReached { .. }), "{:?}", without.outcome);
-        with.outcome
+    let mut arm = figure();
+    let settled = |arm: &Figure| {
+        let without = arm.run([0.0; 4]);
+        assert!(matches!(without, Outcome::NotReached { .. }), "{without:?}");
+        arm.run(arm.parameters.links)
     };
     assert_eq!(settled(&arm), Outcome::Reached { iterations: 25 });
     arm.parameters.end_effector = 0.2;

@@ -1,5 +1,6 @@
 //! Least effort: never worse than minimum norm, bounds and fences kept, the end of a move the best of many.
 
+use cross_tests::jacobians::jacobian;
 use cross_tests::machines;
 use cross_tests::sweep::Random;
 use kinematics_core::geometry::Stroke;
@@ -145,6 +146,45 @@ fn the_end_of_a_move_is_as_cheap_as_the_best_of_ten_thousand_pitches() {
         }
     }
     assert_eq!(found, 160);
+}
+
+/// θ̇ = Jᵀ(JJᵀ)⁻¹·v, by the trigonometric Jacobian.
+fn shortest_rates(lengths: [f64; 3], angles: [f64; 3], by: Vec2<f64>) -> [f64; 3] {
+    let [x, z] = jacobian(lengths, angles);
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let [xx, xz, zz] = [dot(x, x), dot(x, z), dot(z, z)];
+    let determinant = xx * zz - xz * xz;
+    let (u, v) = ((zz * by.x - xz * by.z) / determinant, (xx * by.z - xz * by.x) / determinant);
+    core::array::from_fn(|i| x[i] * u + z[i] * v)
+}
+
+#[test]
+fn minimum_norm_pitches_are_those_of_a_fine_integration_of_the_joints() {
+    let g = PinGeometry::EXACT_MINI;
+    let machine = Machine::<f64>::new(&g).expect("valid pins");
+    let lengths = [g.boom_m, g.arm_m, g.bucket_m];
+    let start = Cylinders { boom: 1.15, arm: 1.3, bucket: 1.0 };
+    let (from, pitch) = place(&machine, &start);
+    let joints = machine.cylinders_to_joints(&start).expect("closes");
+    for way in [Vec2::new(-0.5, 0.1), Vec2::new(0.2, -0.4), Vec2::new(-0.1, 0.5)] {
+        let path = TipPath::<f64, K>::line(from, from + way);
+        let found = minimum_norm_pitches(&machine, &path, pitch).expect("in reach");
+        let mut angles = [joints.boom, joints.arm, joints.bucket].map(Rotor::angle);
+        let first: f64 = angles.iter().sum();
+        let pieces = 400;
+        for (knot, planned) in found.iter().enumerate().skip(1) {
+            for _ in 0..pieces {
+                // Midpoints of steps fifty times finer than the planner's.
+                let by = way.scale(1.0 / f64::from(pieces * (K as i32 - 1)));
+                let half = shortest_rates(lengths, angles, by.scale(0.5));
+                let middle = core::array::from_fn(|i| angles[i] + half[i]);
+                let whole = shortest_rates(lengths, middle, by);
+                angles = core::array::from_fn(|i| angles[i] + whole[i]);
+            }
+            let turned = (angles.iter().sum::<f64>() - first) / std::f64::consts::TAU;
+            assert!((planned - pitch - turned).abs() < 2e-6, "{knot}: {} {turned}", planned - pitch);
+        }
+    }
 }
 
 #[test]

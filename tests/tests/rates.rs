@@ -19,8 +19,9 @@ use cross_tests::rates::{
 };
 use cross_tests::sweep::Random;
 use cross_tests::wide::{Point, Wide};
+use kinematics_core::rates::{MomentArms, SMALLEST_MOMENT_ARM_M};
 use kinematics_core::swing_jacobian::MachineRates;
-use kinematics_core::{Joints, Machine, PinGeometry, Real, Rotor};
+use kinematics_core::{Cylinder, Joints, Machine, PinGeometry, Real, Rotor, Singular};
 
 fn middle(g: &PinGeometry) -> [f64; 3] {
     [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(|s| 0.5 * (s.min_m + s.max_m))
@@ -248,5 +249,106 @@ fn koivos_31_with_omega_y_agrees_with_differences_at_tip_and_wrist() {
     for (name, g) in machines::all().unwrap() {
         measure_swing_jacobian::<f64>(&format!("{name} f64"), &g, F64);
         measure_swing_jacobian::<f32>(&format!("{name} f32"), &g, F32);
+    }
+}
+
+/// Cylinder lengths within the strokes.
+fn within_strokes(g: &PinGeometry, random: &mut Random) -> [f64; 3] {
+    [g.boom.stroke, g.arm.stroke, g.bucket.stroke].map(|s| s.min_m + (s.max_m - s.min_m) * random.unit())
+}
+
+#[test]
+fn lengths_and_moment_arms_taken_together_are_those_taken_apart() {
+    let mut random = Random::new(19);
+    for (name, g) in machines::all().unwrap() {
+        let machine = Machine::<f64>::new(&g).unwrap();
+        for _ in 0..100 {
+            let joints = machine.cylinders_to_joints(&cylinders(within_strokes(&g, &mut random))).unwrap();
+            let apart = (machine.joints_to_cylinders(&joints).unwrap(), machine.moment_arms_at(&joints).unwrap());
+            assert_eq!(machine.joints_to_cylinders_with_arms(&joints).unwrap(), apart, "{name}");
+        }
+        // Out of the stroke both say so.
+        let mut joints = machine.cylinders_to_joints(&cylinders(middle(&g))).unwrap();
+        joints.arm = joints.arm * Rotor::from_degrees(120.0);
+        let apart = machine.joints_to_cylinders(&joints).unwrap_err();
+        assert_eq!(machine.joints_to_cylinders_with_arms(&joints).unwrap_err(), apart, "{name}");
+    }
+}
+
+#[test]
+fn accelerations_of_cylinders_are_second_differences_and_come_back_from_the_joints() {
+    let mut random = Random::new(23);
+    let mut some = move || 2.0 * random.unit() - 1.0;
+    for (name, g) in machines::all().unwrap() {
+        let machine = Machine::<f64>::new(&g).unwrap();
+        let at = middle(&g);
+        let joints = machine.cylinders_to_joints(&cylinders(at)).unwrap();
+        let moments = machine.moments(&cylinders(at)).unwrap();
+        let (rates, accelerations) = (joint_rates([some(), some(), some()]), joint_rates([some(), some(), some()]));
+        let found = moments.cylinder_accelerations(&rates, &accelerations);
+        let h = 1e-3;
+        let lengths_at = |t: f64| {
+            let moved = |joint: Rotor<f64>, rate: f64, acceleration: f64| {
+                joint * Rotor::from_angle(rate * t + 0.5 * acceleration * t * t)
+            };
+            let joints = Joints {
+                boom: moved(joints.boom, rates.boom, accelerations.boom),
+                arm: moved(joints.arm, rates.arm, accelerations.arm),
+                bucket: moved(joints.bucket, rates.bucket, accelerations.bucket),
+            };
+            let lengths = machine.joints_to_cylinders_any_stroke(&joints).unwrap();
+            [lengths.boom, lengths.arm, lengths.bucket]
+        };
+        let (before, here, after) = (lengths_at(-h), lengths_at(0.0), lengths_at(h));
+        for (i, found) in [found.boom, found.arm, found.bucket].into_iter().enumerate() {
+            let exact = (before[i] - 2.0 * here[i] + after[i]) / (h * h);
+            assert!((found - exact).abs() < 1e-5, "{name} {i}: {found} {exact}");
+        }
+        let back = moments.joint_accelerations(&rates, &found).unwrap();
+        for (back, given) in
+            [(back.boom, accelerations.boom), (back.arm, accelerations.arm), (back.bucket, accelerations.bucket)]
+        {
+            assert!((back - given).abs() < 1e-12, "{name}: {back} {given}");
+        }
+    }
+}
+
+#[test]
+fn a_moment_arm_of_a_micrometre_or_less_is_a_dead_points_and_named_by_its_cylinder() {
+    let good = [0.3, -0.4, 0.2];
+    let rates = cylinder_rates([0.1; 3]);
+    for (which, cylinder) in [Cylinder::Boom, Cylinder::Arm, Cylinder::Bucket].into_iter().enumerate() {
+        for (arm, dead) in [
+            (0.0, true),
+            (SMALLEST_MOMENT_ARM_M, true),
+            (-SMALLEST_MOMENT_ARM_M, true),
+            (1.01 * SMALLEST_MOMENT_ARM_M, false),
+            (-1.01 * SMALLEST_MOMENT_ARM_M, false),
+        ] {
+            let mut arms = good;
+            arms[which] = arm;
+            let [boom, arm_arm, bucket] = arms;
+            let found = MomentArms { boom, arm: arm_arm, bucket }.joint_rates(&rates);
+            assert_eq!(found.err(), dead.then_some(Singular::DeadPoint { cylinder }), "{arms:?}");
+        }
+    }
+}
+
+#[test]
+fn the_bucket_turns_by_the_sum_of_its_joints_rates_about_the_planes_normal_and_by_the_swing_about_z() {
+    let mut random = Random::new(107);
+    let g = PinGeometry::EXACT_MINI;
+    let machine = Machine::<f64>::new(&g).unwrap();
+    for _ in 0..50 {
+        let joints = machine.cylinders_to_joints(&cylinders(within_strokes(&g, &mut random))).unwrap();
+        let swing = 6.0 * random.unit() - 3.0;
+        let jacobian = machine.chain().swing_jacobian(&joints, Rotor::from_angle(swing));
+        let [boom, arm, bucket, turning] = [0; 4].map(|_| 2.0 * random.unit() - 1.0);
+        let rates = MachineRates { swing: turning, joints: joint_rates([boom, arm, bucket]) };
+        let found = jacobian.angular_velocity(&rates);
+        let pitch = boom + arm + bucket;
+        // Raising turns about the axis to the right of the plane.
+        let exact = [pitch * libm::sin(swing), -pitch * libm::cos(swing), turning];
+        assert!((0..3).all(|i| (found[i] - exact[i]).abs() < 1e-14), "{found:?} {exact:?}");
     }
 }

@@ -255,3 +255,17 @@ fn every_machine_keeps_its_condition_number_over_its_stroke_in_both_precisions()
         }
     }
 }
+
+#[test]
+fn at_isotropy_rounding_never_makes_the_smallest_the_largest() {
+    let mut random = Random::new(83);
+    let mut equal = 0;
+    for _ in 0..10_000 {
+        let (size, at) = (0.1 + 10.0 * random.unit(), Rotor::from_turns(random.unit()));
+        let (x, z) = ((size * at.cos) as f32, (size * at.sin) as f32);
+        let found = SingularValues::of(&[[x, -z], [z, x]]);
+        assert!(found.smallest <= found.largest, "{found:?}");
+        equal += u32::from(found.smallest == found.largest);
+    }
+    assert!(equal > 100, "{equal}");
+}

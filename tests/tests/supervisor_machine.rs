@@ -47,6 +47,16 @@ fn every_state_with_every_set_of_facts_is_tried() {
 }
 
 #[test]
+fn every_fact_is_told_from_every_other_and_stays_when_it_is_added_again() {
+    for (i, (fact, name)) in Facts::NAMED.iter().enumerate() {
+        for (j, (other, _)) in Facts::NAMED.iter().enumerate() {
+            assert_eq!((fact.has(*other), fact.has_any(*other)), (i == j, i == j), "{name}");
+        }
+        assert_eq!(fact.and(*fact), *fact, "{name}");
+    }
+}
+
+#[test]
 fn running_begins_only_from_ready_self_tested_in_neutral_by_a_fresh_enable_with_nothing_wrong() {
     let needed = Facts::SELF_TESTED.and(Facts::NEUTRAL).and(Facts::ENABLE).and(Facts::ENABLE_EDGE);
     let wrong = Facts::WRONG.and(Facts::GRAVE);
@@ -365,6 +375,36 @@ fn fewer_than_three_overruns_in_a_row_stop_nothing_three_do_until_the_restart() 
         bench.inputs.enable = tick / 100 % 2 == 0;
         assert_eq!(bench.tick(), (State::Stopped, Gate::Closed));
     }
+}
+
+#[test]
+fn a_cut_off_s_contact_may_be_elsewhere_for_fifty_ticks_then_it_is_stuck_open_or_welded() {
+    for (mut bench, state, gate, contact, then, fault) in [
+        (Bench::running(), State::Running, Gate::Open, false, State::Fault, Fault::CutOffStuckOpen),
+        (Bench::ready(), State::Ready, Gate::Closed, true, State::Stopped, Fault::CutOffWelded),
+    ] {
+        for tick in 1..=50 {
+            bench.inputs.cut_off_closed = contact;
+            assert_eq!(bench.tick(), (state, gate), "{fault:?} {tick}");
+        }
+        bench.inputs.cut_off_closed = contact;
+        assert_eq!(bench.tick(), (then, Gate::Closed));
+        assert_eq!(bench.supervisor.fault(), Some(fault));
+    }
+}
+
+#[test]
+fn a_self_test_that_passes_while_enable_is_on_still_waits_for_its_edge() {
+    let mut bench = Bench::ready();
+    bench.supervisor.self_tested(&SelfTest::PENDING);
+    bench.inputs.enable = true;
+    assert_eq!(bench.tick(), (State::Ready, Gate::Closed));
+    bench.supervisor.self_tested(&SelfTest::PASSED);
+    assert_eq!(bench.tick(), (State::Ready, Gate::Closed));
+    bench.inputs.enable = false;
+    bench.tick();
+    bench.inputs.enable = true;
+    assert_eq!(bench.tick(), (State::Running, Gate::Open));
 }
 
 #[test]

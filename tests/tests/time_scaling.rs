@@ -92,19 +92,31 @@ fn run<T: Real>(
     }
 }
 
-#[test]
-fn no_bound_is_ever_exceeded_and_every_move_ends() {
-    let mut stream = Random::new(7);
+/// The largest shares of speed, acceleration, jerk and flow over so many random moves.
+fn worst_of(moves: usize, seed: u64) -> [f64; 4] {
+    let mut stream = Random::new(seed);
     let mut worst = [0.0_f64; 4];
-    for _ in 0..300 {
+    for _ in 0..moves {
         let (knots, limits) = random_move(&mut stream);
         let used = run::<f64>(&knots, &limits, |_| 1.0).unwrap_or_else(|e| panic!("{e}: {limits:?}"));
         let all = [used.speed, used.acceleration, used.jerk, used.flow];
         worst = std::array::from_fn(|i| worst[i].max(all[i]));
     }
+    worst
+}
+
+#[test]
+fn no_bound_is_ever_exceeded_and_every_move_ends() {
+    let worst = worst_of(300, 7);
     println!("largest share of speed, acceleration, jerk, flow: {worst:.4?}");
     assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6), "{worst:?}");
     assert!(worst.iter().all(|share| *share > 0.9), "a limit is never used: {worst:?}");
+}
+
+#[test]
+fn a_score_of_other_moves_keeps_its_bounds_and_uses_them() {
+    let worst = worst_of(20, 101);
+    assert!(worst.iter().all(|share| *share <= 1.0 + 1e-6 && *share > 0.8), "{worst:?}");
 }
 
 #[test]
@@ -250,4 +262,29 @@ fn curved_moves_stay_near_a_bound_that_no_jerk_limited_move_can_reach() {
     assert!(ratios[0] > 0.999, "faster than possible: {}", ratios[0]);
     // A single place that wants little jerk sets it for the whole path: a few moves are far slower than they need to be.
     assert!(median < 1.25 && most < 2.2, "{median} {most}");
+}
+
+#[test]
+fn the_rate_the_acceleration_and_the_jerk_told_are_the_differences_of_the_way() {
+    let mut stream = Random::new(89);
+    for _ in 0..3 {
+        let (knots, limits) = random_move(&mut stream);
+        let limits = Limits::<f64>::new(&limits).unwrap();
+        let path = CylinderPath::new(&knots, &limits).unwrap();
+        let mut scaling = TimeScaling::standstill();
+        scaling.plan(&path, &limits, TICK_S).unwrap();
+        let mut pace = Pace::start();
+        let mut before = pace.progress();
+        let mut ticks = 0;
+        while !before.done && ticks < LONGEST {
+            // Less is asked for now and then.
+            let share = if ticks % 900 < 300 { 0.3 } else { 1.0 };
+            let now = scaling.advance(&mut pace, share);
+            assert!(((now.s - before.s) / TICK_S - now.rate).abs() < 1e-9, "{now:?} {before:?}");
+            assert!(((now.rate - before.rate) / TICK_S - now.acceleration).abs() < 1e-8, "{now:?} {before:?}");
+            assert!(((now.acceleration - before.acceleration) / TICK_S - now.jerk).abs() < 1e-6, "{now:?} {before:?}");
+            (before, ticks) = (now, ticks + 1);
+        }
+        assert!(before.done && before.s == 1.0);
+    }
 }

@@ -243,3 +243,69 @@ fn a_number_beyond_a_kilometre_is_refused_by_its_field_before_it_becomes_an_infi
         }
     }
 }
+
+#[test]
+fn a_bucket_stroke_over_the_fold_is_named_by_the_end_that_is_nearer_to_it() {
+    // exact-mini's linkage folds nowhere from 0.84 to 1.26 m.
+    let whole = PinGeometry::EXACT_MINI;
+    let b = whole.bucket;
+    let to_base = b.base - b.rocker_pivot;
+    let side = to_base.norm();
+    // Coupler and bucket fold up where the rocker's end comes too near to the bucket pin.
+    let folded = |length: f64| {
+        let cos = (side * side + b.rocker_m * b.rocker_m - length * length) / (2.0 * side * b.rocker_m);
+        let turn = Vec2::new(cos, -libm::sqrt(1.0 - cos * cos));
+        let common = b.rocker_pivot + turn.complex_mul(to_base).scale(b.rocker_m / side);
+        (common - Vec2::new(whole.arm_m, 0.0)).norm() < b.coupler_m - b.coupler_pin.norm()
+    };
+    let fold = (0..5_000).map(|i| 1.26 + 1e-5 * f64::from(i)).find(|length| folded(*length)).unwrap();
+    for (min_m, max_m) in [(0.84, 1.30), (0.84, 1.29), (1.2, 1.30), (1.275, 1.30)] {
+        let mut g = whole;
+        g.bucket.stroke = Stroke { min_m, max_m };
+        let error = refused(&g);
+        let Problem::DoesNotClose { length_m: at } = error.problem else { panic!("{min_m}…{max_m}: {error:?}") };
+        assert!(at >= fold - 1e-5 && at < fold + 1e-3, "{at}, folds at {fold}");
+        let nearer = if at <= 0.5 * (min_m + max_m) { "bucket.min_m" } else { "bucket.max_m" };
+        assert_eq!(error.field, nearer, "{min_m}…{max_m}: {at}");
+    }
+}
+
+#[test]
+fn a_bucket_linkage_whose_rocker_and_coupler_come_in_line_within_the_stroke_is_refused() {
+    let whole = PinGeometry::EXACT_MINI;
+    let mut counts = [0; 2];
+    for i in 0..40 {
+        for j in 0..40 {
+            let mut g = whole;
+            (g.bucket.rocker_m, g.bucket.coupler_m) = (0.16 + 0.006 * f64::from(i), 0.1 + 0.005 * f64::from(j));
+            g.bucket.stroke = Stroke { min_m: 0.95, max_m: 1.2 };
+            let b = g.bucket;
+            let to_base = b.base - b.rocker_pivot;
+            let pin = Vec2::new(g.arm_m, 0.0);
+            // Where a circle about one point meets that about another, clockwise of the line between them.
+            let meet = |way: Vec2<f64>, one: f64, other: f64| {
+                let side = way.norm();
+                let cos = (side * side + one * one - other * other) / (2.0 * side * one);
+                let turn = Vec2::new(cos, -libm::sqrt(1.0 - cos * cos));
+                (cos * cos < 1.0).then(|| turn.complex_mul(way).scale(one / side))
+            };
+            // How far the coupler's pin stands off the rocker's line; `None` where nothing closes.
+            let off = |length: f64| {
+                let rocker = meet(to_base, b.rocker_m, length)?;
+                let common = b.rocker_pivot + rocker;
+                let coupler = meet(common - pin, b.coupler_pin.norm(), b.coupler_m)?;
+                Some((pin + coupler - b.rocker_pivot).cross(rocker))
+            };
+            let all: Vec<Option<f64>> = (0..=500).map(|n| off(0.95 + 0.0005 * f64::from(n))).collect();
+            // A hair's breadth is left to either answer.
+            if all.iter().flatten().any(|off| off.abs() < 1e-4) {
+                continue;
+            }
+            let sound = all.iter().all(|off| off.is_some_and(|off| off > 0.0));
+            assert_eq!(g.validate().is_ok(), sound, "rocker {}, coupler {}", b.rocker_m, b.coupler_m);
+            counts[usize::from(sound)] += usize::from(all.iter().all(Option::is_some));
+        }
+    }
+    println!("{counts:?}");
+    assert!(counts[0] > 0 && counts[1] > 100, "{counts:?}");
+}

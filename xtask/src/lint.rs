@@ -3,6 +3,7 @@
 use crate::arm;
 use crate::process::{Outcome, announce, capture, cargo, command as program, run};
 
+const MUTANTS: [&str; 2] = ["--test=kinematics", "--test=supervisor"];
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// `cargo xtask lint`: stops at the first finding.
@@ -16,6 +17,8 @@ pub(crate) fn command() -> Outcome<bool> {
     run(cargo().args(["fmt", "--all", "--check"]))?;
     announce("clippy, host");
     run(cargo().args(["clippy", "--workspace", "--all-targets"]).args(DENY))?;
+    // What mutants are tried by is no part of `--all-targets`: the same tests run elsewhere.
+    run(cargo().args(["clippy", "--package=reference", "--features=supervisor"]).args(MUTANTS).args(DENY))?;
     announce("rustdoc");
     run(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
     announce("clippy, ARM images");

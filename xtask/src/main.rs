@@ -5,6 +5,7 @@
 //!   [`cantools`] installs the DBC parser;
 //! - [`image`] builds the images and has [`elf`] look at what was linked;
 //! - [`tests`] runs the suite and counts with [`tally`];
+//! - [`mutants`] has cargo-mutants look for changes that no test notices;
 //! - [`lint`] is formatting, clippy and rustdoc; [`process`] runs the children of all of them.
 
 mod arm;
@@ -14,12 +15,15 @@ mod elf;
 mod emulator;
 mod image;
 mod lint;
+mod mutants;
 mod packages;
 mod process;
 mod tally;
 mod tests;
 
 use std::process::ExitCode;
+
+use crate::mutants::Subject;
 
 const USAGE: &str = "\
 Usage: cargo xtask COMMAND
@@ -30,6 +34,9 @@ Commands:
                   Closing line: N passed, N failed, N skipped
   image [NAME…]   build the ARM images (default: all) and print the path of each ELF on standard output
   lint            formatting, clippy and rustdoc, warnings are errors
+  mutants SUBJECT [K/N]
+                  change kinematics or the supervisor (SUBJECT: kinematics, supervisor) one place at a time and see
+                  whether a test notices: of every N mutants the K-th, from 0. Takes hours; installs cargo-mutants
   help            this text
 
 Environment:
@@ -43,6 +50,7 @@ enum Task {
     Test,
     Image(Vec<String>),
     Lint,
+    Mutants(Subject, Option<String>),
     Help,
 }
 
@@ -57,6 +65,7 @@ fn parse(arguments: &[String]) -> Result<Task, String> {
             };
         }
         "lint" => Task::Lint,
+        "mutants" => return mutants(rest),
         "help" | "--help" | "-h" => Task::Help,
         other => return Err(format!("unknown command `{other}`")),
     };
@@ -66,12 +75,29 @@ fn parse(arguments: &[String]) -> Result<Task, String> {
     }
 }
 
+/// What follows `mutants`: a subject, and which part of its mutants.
+fn mutants(rest: &[String]) -> Result<Task, String> {
+    let (name, rest) = rest.split_first().ok_or("mutants needs a subject: kinematics or supervisor")?;
+    let subject = Subject::ALL.into_iter().find_map(|(known, subject)| (known == name).then_some(subject));
+    let subject = subject.ok_or_else(|| format!("mutants knows kinematics and supervisor, not `{name}`"))?;
+    let numbers = |part: &str| {
+        let (k, n) = part.split_once('/')?;
+        Some((k.parse::<u32>().ok()?, n.parse::<u32>().ok()?))
+    };
+    match rest {
+        [] => Ok(Task::Mutants(subject, None)),
+        [part] if numbers(part).is_some_and(|(k, n)| k < n) => Ok(Task::Mutants(subject, Some(part.clone()))),
+        [part, ..] => Err(format!("mutants takes a part such as 0/32, not `{part}`")),
+    }
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
     let outcome = match parse(&arguments) {
         Ok(Task::Test) => tests::command(),
         Ok(Task::Image(names)) => image::command(&names),
         Ok(Task::Lint) => lint::command(),
+        Ok(Task::Mutants(subject, part)) => mutants::command(subject, part.as_deref()),
         Ok(Task::Help) => {
             println!("{USAGE}");
             Ok(true)
@@ -94,7 +120,7 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod command_line {
-    use super::{Task, parse};
+    use super::{Subject, Task, parse};
 
     fn parsed(line: &str) -> Result<Task, String> {
         parse(&line.split_whitespace().map(String::from).collect::<Vec<_>>())
@@ -106,14 +132,23 @@ mod command_line {
         assert_eq!(parsed("lint"), Ok(Task::Lint));
         assert_eq!(parsed("--help"), Ok(Task::Help));
         assert_eq!(parsed("image"), Ok(Task::Image(vec![])));
+        assert_eq!(parsed("mutants supervisor"), Ok(Task::Mutants(Subject::Supervisor, None)));
+        assert_eq!(parsed("mutants kinematics 3/32"), Ok(Task::Mutants(Subject::Kinematics, Some("3/32".into()))));
         assert_eq!(parsed("image one two"), Ok(Task::Image(vec!["one".into(), "two".into()])));
     }
 
     #[test]
     fn what_is_not_understood_is_named() {
-        for (line, named) in
-            [("", "no command"), ("tset", "`tset`"), ("test --fast", "`--fast`"), ("image --release", "`--release`")]
-        {
+        for (line, named) in [
+            ("", "no command"),
+            ("tset", "`tset`"),
+            ("test --fast", "`--fast`"),
+            ("image --release", "`--release`"),
+            ("mutants", "subject"),
+            ("mutants firmware", "`firmware`"),
+            ("mutants kinematics 3", "`3`"),
+            ("mutants kinematics 32/32", "`32/32`"),
+        ] {
             let message = parsed(line).expect_err(line);
             assert!(message.contains(named), "{line}: {message}");
         }

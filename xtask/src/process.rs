@@ -14,7 +14,7 @@ pub(crate) fn announce(step: &str) {
 }
 
 /// The top of the repository. Cargo sets the variable when it runs the task, so a moved clone is found too.
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     let package = env::var_os("CARGO_MANIFEST_DIR").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
     PathBuf::from(package).join("..")
 }

@@ -31,7 +31,8 @@ measured. `cargo hil faults` measures the bounds on a whole simulated machine an
 
 const ORIENTATION: &str = "
 `cargo hil safety --check` and a test fail when a requirement has no test, when a named test is gone, or when this page is not what would be written. That a
-test of this name exists is checked; that it shows what the requirement says is for its reader to judge.
+test of this name exists is checked; that it shows what the requirement says is for its reader to judge. How much the tests of the supervisor and of the kinematics
+notice is measured by changing the code under them: [mutation.md](mutation.md).
 
 ## Orientation by the standards
 

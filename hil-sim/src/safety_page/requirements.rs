@@ -91,7 +91,10 @@ pub const REQUIREMENTS: &[Requirement] = &[
     promise(
         "SR-09",
         "A cut-off that does not follow, welded or stuck open, is named in the 51st tick.",
-        &["a_cut_off_that_does_not_follow_is_a_fault_after_fifty_ticks_and_not_before"],
+        &[
+            "a_cut_off_that_does_not_follow_is_a_fault_after_fifty_ticks_and_not_before",
+            "a_cut_off_s_contact_may_be_elsewhere_for_fifty_ticks_then_it_is_stuck_open_or_welded",
+        ],
     ),
     promise(
         "SR-10",
@@ -242,6 +245,7 @@ pub const REQUIREMENTS: &[Requirement] = &[
             "sixty_random_operators_never_carry_the_linkage_past_a_limit_and_a_fence_of_the_tip_alone_lets_them",
             "what_is_let_through_lies_between_nothing_and_what_was_wanted_and_keeps_every_bound",
             "inside_a_limit_the_way_out_is_free_and_the_way_in_is_closed",
+            "planes_and_balls_are_kept_from_wherever_the_actuators_have_moved_to_since_they_were_weighed",
         ],
     ),
     promise(

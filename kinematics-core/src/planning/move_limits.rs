@@ -91,7 +91,8 @@ impl<T: Real> Limits<T> {
         })
     }
 
-    /// The shortest time between two configurations with speeds and flow at their limits, accelerations left aside, s.
+    /// The shortest time between two configurations with speeds and flow at their limits, accelerations left aside, s; no number where a length is
+    /// none.
     pub fn shortest_time(&self, from: &Cylinders<T>, to: &Cylinders<T>) -> T {
         let by = [to.boom - from.boom, to.arm - from.arm, to.bucket - from.bucket];
         let [mut longest, mut volume] = [T::ZERO; 2];
@@ -100,7 +101,8 @@ impl<T: Real> Limits<T> {
             longest = larger(longest, time);
             volume = volume + filled;
         }
-        larger(longest, volume / self.flow)
+        // In this order what is no number stays none: each length counts in the volume, and `longest` leaves such a one out.
+        larger(volume / self.flow, longest)
     }
 
     /// The largest rate ṡ at which speeds and flow keep to their limits with these slopes dL/ds; `None` where none moves.

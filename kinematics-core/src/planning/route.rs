@@ -131,3 +131,83 @@ impl<T: Real, const N: usize> Map<T, N> {
         aims.iter().flatten().all(|aim| avoid.within_travel(aim)).then_some(Route { aims })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PinGeometry;
+    use crate::planning::avoid::AvoidParameters;
+    use crate::planning::hull::{Flesh, Hull};
+
+    /// Start and goal beside a ball at the same bearing, all postures free.
+    fn map(avoid: &Avoid<f64>) -> Map<f64, 1> {
+        let [boom, arm, bucket] = &avoid.travels;
+        let places = |share: f64| [boom.half * share, arm.half * share, bucket.half * share];
+        let ball = Sphere { x: 2.0, y: 0.0, z: 0.5, radius: 0.3 };
+        Map {
+            start: Aim { swing: Rotor::from_degrees(5.0), places: places(0.1) },
+            goal: Aim { swing: Rotor::from_degrees(-8.0), places: places(0.2) },
+            bearings: [Bearing::of(&ball, 0.1, 0.05)],
+            postures: [-0.8, -0.4, 0.4, 0.8].map(|share| Some(places(share))),
+        }
+    }
+
+    fn avoid() -> Avoid<f64> {
+        let g = PinGeometry::EXACT_MINI;
+        let hull = Hull::new(&g, Flesh::of_reach(g.reach_m())).unwrap_or_else(|e| panic!("{e}"));
+        let parameters = AvoidParameters::of_reach(g.reach_m(), [1.0; 4]);
+        Avoid::new(&g, hull, &parameters).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    #[test]
+    fn every_number_is_another_route_where_start_and_goal_lie_in_a_sector() {
+        let avoid = avoid();
+        let map = map(&avoid);
+        let mut found = [None; ROUTES];
+        for (number, slot) in found.iter_mut().enumerate() {
+            *slot = map.route(&avoid, number);
+            assert!(slot.is_some(), "{number}");
+        }
+        for (number, route) in found.iter().enumerate() {
+            assert!(!found.iter().take(number).any(|earlier| earlier == route), "{number}");
+        }
+        assert!(map.route(&avoid, ROUTES).is_none(), "there are no more postures");
+    }
+
+    #[test]
+    fn a_route_ends_at_the_goal_and_leaves_and_enters_at_the_sectors_edge() {
+        let avoid = avoid();
+        let map = map(&avoid);
+        // asin(0.45/2)
+        let half = 13.003_f64;
+        for (number, [out, into]) in [(1, [Some(half), None]), (2, [Some(-half), None]), (3, [None, Some(half)])] {
+            let route = map.route(&avoid, number).unwrap_or_else(|| panic!("{number}"));
+            let swings: [Option<f64>; 2] =
+                [route.aim(0), route.aim(1)].map(|aim| aim.map(|a| a.swing.angle().to_degrees()));
+            let wanted = [out.or(into), Some(-8.0)];
+            for (swing, wanted) in swings.into_iter().zip(wanted) {
+                assert!(swing.zip(wanted).is_some_and(|(swing, wanted)| (swing - wanted).abs() < 0.01), "{swings:?}");
+            }
+            assert!(route.is_last(1) && !route.is_last(0) && route.aim(2).is_none());
+            let first = route.aim(0).map(|aim| aim.places);
+            assert_eq!(first, Some(if out.is_some() { map.start.places } else { map.goal.places }));
+        }
+    }
+
+    #[test]
+    fn the_long_way_goes_by_the_side_opposite_to_the_short_one() {
+        let avoid = avoid();
+        let map = map(&avoid);
+        let route = map.route(&avoid, SIDES * SIDES).unwrap_or_else(|| panic!("none"));
+        let aims =
+            [route.aim(0), route.aim(1), route.aim(2)].map(|aim| aim.unwrap_or_else(|| panic!("two on the way")));
+        let degrees = aims.map(|aim| aim.swing.angle().to_degrees());
+        assert!((degrees[0] - 5.0).abs() < 1e-9 && (degrees[2] + 8.0).abs() < 1e-9, "{degrees:?}");
+        assert!((degrees[1] - 178.5).abs() < 1e-9, "{degrees:?}");
+        // First the places, by a tenth of half a travel, then 173.5° twice, at 1 rad/s; half a turn's arc is good to 0.026 rad.
+        let longest =
+            avoid.travels.iter().fold(0.0, |most, travel| if travel.half > most { travel.half } else { most });
+        let expected = 0.1 * longest + 347.0_f64.to_radians();
+        assert!((route.time(&avoid, &map.start) - expected).abs() < 0.06);
+    }
+}

@@ -2,6 +2,7 @@
 
 pub mod frankel;
 pub mod koivo;
+pub mod park;
 pub mod plain;
 
 use core::f64::consts::{PI, TAU};

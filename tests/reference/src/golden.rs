@@ -16,7 +16,7 @@ impl Golden {
     /// # Panics
     /// When the file is missing, a cell is no number, or there are no rows: a test over nothing would pass.
     pub fn read(name: &str) -> Self {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("data/golden/{name}.csv"));
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../data/golden/{name}.csv"));
         let mut reader = csv::Reader::from_path(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let columns = reader.headers().unwrap().iter().map(str::to_owned).collect();
         let rows: Vec<Vec<f64>> = reader.deserialize().map(|row| row.unwrap()).collect();

@@ -15,7 +15,7 @@ pub struct Stated {
     pub tip_round_trip: f64,
 }
 
-const PAGE: &str = include_str!("../../docs/accuracy.md");
+const PAGE: &str = include_str!("../../../docs/accuracy.md");
 
 /// The swing cylinder's rotor, which the page states in a sentence per precision: `swing rotor, f32: 1e-7 rad`.
 ///
