@@ -12,6 +12,8 @@ use crate::sensing::SensorView;
 const KEPT: f32 = 0.8;
 /// From the kept sum of changes to a speed.
 const PER_S: f32 = (1.0 - KEPT) / (KEPT * ROUND_S);
+/// Share of its full speed at which oil that was pressed against a stop may push an actuator off it, however small the command that lets it.
+const OF_SPRING: f32 = 0.5;
 /// The noise's standard deviation must be as many codes wide for its loss to be seen.
 const NOISE_CODES: f32 = 3.0;
 
@@ -152,7 +154,11 @@ impl Channel {
     ) -> bool {
         let speed = self.speed();
         let (low, high) = self.envelope.bounds(model, asked);
-        let margin = self.speed_margin + model.coupling * others * self.full;
+        let mut margin = self.speed_margin + model.coupling * others * self.full;
+        let [first, last] = self.limits.stops;
+        if asked.moves() && (self.round_code < first || self.round_code > last) {
+            margin += OF_SPRING * self.full;
+        }
         let inside = speed <= high + margin && speed >= low - margin;
         let codes = [self.round_before, self.round_code];
         // A swing motor, which has no sides here, coasts for as long as its brake valves let it.

@@ -106,6 +106,14 @@ pub(super) struct Asked {
     pub(super) command: f32,
 }
 
+impl Asked {
+    /// Something of it is not rest.
+    #[inline(always)]
+    pub(super) fn moves(&self) -> bool {
+        self.span.low < 0.0 || self.span.high > 0.0
+    }
+}
+
 /// One actuator's model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Envelope {
