@@ -124,6 +124,13 @@ impl<T: Real> Machine<T> {
     /// [`Machine::cylinders_to_tip_with_fine_jacobian`], [`Machine::cylinder_bias`] and [`Chain::fine_swing_jacobian`] then answer as for a
     /// geometry out of fixed point's range; every other map is the same, bit for bit.
     ///
+    /// ```
+    /// # use kinematics_core::{Cylinders, Machine, PinGeometry};
+    /// let [all, quick] = [Machine::<f32>::new, Machine::<f32>::without_fine_maps].map(|new| new(&PinGeometry::EXACT_MINI).unwrap());
+    /// let lengths = Cylinders { boom: 1.1, arm: 1.3, bucket: 1.0 };
+    /// assert_eq!(quick.cylinders_to_joints(&lengths), all.cylinders_to_joints(&lengths));
+    /// ```
+    ///
     /// # Errors
     /// As [`Machine::new`].
     pub fn without_fine_maps(geometry: &PinGeometry) -> Result<Self, GeometryError> {

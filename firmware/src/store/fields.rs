@@ -57,7 +57,7 @@ impl<'a> Source<'a> {
         while place < bits {
             let byte = u32::from(self.byte());
             // What the bits left have no room for is no number, nor is one that goes on after them.
-            if (byte & 0x7f) >> (bits - place).min(7) != 0 {
+            if (byte & 0x7f) >> core::cmp::min(bits - place, 7) != 0 {
                 break;
             }
             value |= (byte & 0x7f) << place;
