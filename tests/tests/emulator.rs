@@ -85,7 +85,7 @@ fn the_emulated_tick_and_image_stay_within_their_budgets() {
     assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 52 * 1024);
     // Most of it is construction: planners, validation, error texts. The STM32F405 has 1 MiB.
     assert!(figures.flash_bytes > 10_000 && figures.flash_bytes <= 240 * 1024);
-    assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 22 * 1024);
+    assert!(figures.ram_bytes > 0 && figures.ram_bytes <= 23 * 1024);
 }
 
 #[test]
@@ -139,8 +139,8 @@ fn the_maps_stay_within_their_instruction_budgets() {
     assert!(median("coil_stage_driven") <= 1200 && largest("coil_stage_driven") <= 1400);
     assert!(largest("coil_stage_dying") <= 1550);
     assert!(largest("coil_stage_off") <= 200);
-    // Of all four actuators.
-    assert!(largest("diagnosis_moving") <= 290 && largest("diagnosis_at_rest") <= 290);
+    // Of all four actuators: a release's line and a stop's spring included; the whole tick is held to 4,000.
+    assert!(largest("diagnosis_moving") <= 310 && largest("diagnosis_at_rest") <= 340);
 }
 
 #[test]

@@ -131,7 +131,7 @@ fn the_boards_image_keeps_within_its_flash_and_memory() {
     let image = Image::build("ecu-stm32f405").unwrap_or_else(|error| panic!("{error}"));
     println!("{} bytes of flash, {} of static memory", image.flash_bytes, image.ram_bytes);
     // 96 KiB of flash were wanted; docs/porting.md says where it goes, and what the rest cannot do without.
-    assert!(image.flash_bytes > 10_000 && image.flash_bytes <= 188 * 1024);
+    assert!(image.flash_bytes > 10_000 && image.flash_bytes <= 190 * 1024);
     assert!(image.ram_bytes > 0 && image.ram_bytes <= 24 * 1024);
 }
 
