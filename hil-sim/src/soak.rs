@@ -29,6 +29,22 @@ const OF_SWING: f64 = 0.5;
 /// One operator in so many moves one lever at a time: then no other motion excuses what runs on or shakes.
 const ONE_IN: u64 = 4;
 
+/// How an operator works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// Often several levers at once.
+    Several,
+    /// One lever, or none.
+    OneAtATime,
+}
+
+impl Operator {
+    /// Whose a minute is.
+    pub fn of(run: u64) -> Self {
+        if run % ONE_IN == ONE_IN - 1 { Self::OneAtATime } else { Self::Several }
+    }
+}
+
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -58,7 +74,7 @@ pub fn soak(machine: &MachineFile, seed: u64, minutes: Vec<u64>, done: impl Fn()
     let found: Vec<(f64, Option<Trip>)> = minutes
         .into_par_iter()
         .map(|run| {
-            let found = work(machine, seed, run)?;
+            let found = work(machine, seed, run, Operator::of(run))?;
             done();
             Ok(found)
         })
@@ -76,7 +92,7 @@ pub fn soak(machine: &MachineFile, seed: u64, minutes: Vec<u64>, done: impl Fn()
 ///
 /// # Errors
 /// The machine cannot be simulated.
-pub fn minute(machine: &MachineFile, seed: u64, run: u64) -> Result<(Scenario, u64), String> {
+pub fn minute(machine: &MachineFile, seed: u64, run: u64, operator: Operator) -> Result<(Scenario, u64), String> {
     let case = seed ^ (run << 20) ^ 0x50_a4;
     let mut dice = Dice::new(case);
     let g = &machine.geometry;
@@ -87,14 +103,20 @@ pub fn minute(machine: &MachineFile, seed: u64, run: u64) -> Result<(Scenario, u
     let start = Start { swing_deg: 0.0, boom_m, arm_m, bucket_m };
     let payload_kg = dice.within(0.0, 1000.0);
     let mut scenario = working_scenario(machine, start, RUN_S, payload_kg)?;
-    let moves = if run % ONE_IN == ONE_IN - 1 { one_at_a_time } else { several }(&mut dice, scenario.begin_s);
+    let moves = match operator {
+        Operator::Several => several,
+        Operator::OneAtATime => one_at_a_time,
+    }(&mut dice, scenario.begin_s);
     scenario.task = Task::Levers { start, moves };
     Ok((scenario, case))
 }
 
-/// One operator: the way of the cylinders, m, and the first fault.
-fn work(machine: &MachineFile, seed: u64, run: u64) -> Result<(f64, Option<Trip>), String> {
-    let (scenario, case) = minute(machine, seed, run)?;
+/// One operator's minute: the way of the cylinders, m, and the first fault.
+///
+/// # Errors
+/// The machine cannot be simulated.
+pub fn work(machine: &MachineFile, seed: u64, run: u64, operator: Operator) -> Result<(f64, Option<Trip>), String> {
+    let (scenario, case) = minute(machine, seed, run, operator)?;
     let mut host = Host::new(&scenario.parameters).map_err(|error| error.to_string())?;
     let run_ = Run::new(&scenario, case).map_err(|error| error.to_string())?;
     let log = run_.complete(&mut host, |_, _| {}).map_err(|error| error.to_string())?;

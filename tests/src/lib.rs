@@ -1,4 +1,4 @@
-//! Helpers of the cross-crate tests. What tests of `kinematics-core` alone need stands in the package [`reference`] and is handed on.
+//! Helpers of the cross-crate tests. What tests of `kinematics-core` alone need stands in the package `reference` and is handed on.
 //!
 //! - [`boards`]: a board of plain values, and a record to store;
 //! - [`browser`]: a page in headless Chromium, with a probe in it;
