@@ -5,7 +5,7 @@
 //!   [`cantools`] installs the DBC parser;
 //! - [`image`] builds the images and has [`elf`] look at what was linked;
 //! - [`tests`] runs the suite and counts with [`tally`];
-//! - [`mutants`] has cargo-mutants look for changes that no test notices;
+//! - [`mod@mutants`] has cargo-mutants look for changes that no test notices;
 //! - [`lint`] is formatting, clippy and rustdoc; [`process`] runs the children of all of them.
 
 mod arm;
