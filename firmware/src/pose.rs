@@ -5,7 +5,8 @@ use kinematics_core::{Cylinders, GeometryError, Machine, PinGeometry, PlaneTip, 
 use crate::fault::Fault;
 use crate::sensing::Sensed;
 
-/// The maps of a geometry; nothing here asks those in fixed point. Not inlined, so that an image holds their making once: it is generic and would be compiled with every caller.
+/// The maps of a geometry; nothing here asks those in fixed point. Not inlined, so that an image holds their making once: it is generic and
+/// would be compiled with every caller.
 ///
 /// # Errors
 /// The first problem of the geometry, named by its field.

@@ -41,16 +41,9 @@ fn poses() -> Vec<Angles> {
     all.filter(|&pose| SingularValues::of(&chain().jacobian(&rotors(pose))).smallest > 0.2).collect()
 }
 
+/// Those of Figure 6.
 fn parameters() -> PlannerParameters<f64, 4> {
-    PlannerParameters {
-        end_effector: 0.3,
-        obstacle: 0.2,
-        links: [0.01, 0.01, 0.0, 0.0],
-        directions: [Direction::Hold; 4],
-        trusted_m: 0.1,
-        turn_rad: 0.2,
-        tolerance_m: 0.01,
-    }
+    figure().parameters
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn parse(arguments: &[String]) -> Result<Task, String> {
 /// What follows `mutants`: a subject, and which part of its mutants.
 fn mutants(rest: &[String]) -> Result<Task, String> {
     let (name, rest) = rest.split_first().ok_or("mutants needs a subject: kinematics or supervisor")?;
-    let subject = Subject::ALL.into_iter().find_map(|(known, subject)| (known == name).then_some(subject));
+    let subject = Subject::ALL.into_iter().find(|subject| subject.name() == name);
     let subject = subject.ok_or_else(|| format!("mutants knows kinematics and supervisor, not `{name}`"))?;
     let numbers = |part: &str| {
         let (k, n) = part.split_once('/')?;

@@ -23,7 +23,7 @@ pub(crate) enum Subject {
 }
 
 impl Subject {
-    pub(crate) const ALL: [(&str, Self); 2] = [("kinematics", Self::Kinematics), ("supervisor", Self::Supervisor)];
+    pub(crate) const ALL: [Self; 2] = [Self::Kinematics, Self::Supervisor];
 
     /// What is mutated, and which tests are built for it.
     const fn arguments(self) -> &'static [&'static str] {
@@ -35,7 +35,7 @@ impl Subject {
         }
     }
 
-    const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Kinematics => "kinematics",
             Self::Supervisor => "supervisor",

@@ -105,9 +105,7 @@ impl Header {
             Rate::AtMostEvery(_) => false,
         }
     }
-}
 
-impl Header {
     /// The frame of a sender at this address; a protected message gets the counter and its CRC.
     #[inline(never)]
     pub fn frame(&self, source: u8, counter: u8, payload: u64) -> CanFrame {

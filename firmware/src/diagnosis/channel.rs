@@ -155,8 +155,7 @@ impl Channel {
         let speed = self.speed();
         let (low, high) = self.envelope.bounds(model, asked);
         let mut margin = self.speed_margin + model.coupling * others * self.full;
-        let [first, last] = self.limits.stops;
-        if asked.moves() && (self.round_code < first || self.round_code > last) {
+        if asked.moves() && self.limits.near_stop(self.round_code) {
             margin += OF_SPRING * self.full;
         }
         let inside = speed <= high + margin && speed >= low - margin;

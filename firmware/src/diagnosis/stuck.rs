@@ -16,6 +16,15 @@ pub(super) struct StuckLimits {
     pub(super) stops: [u16; 2],
 }
 
+impl StuckLimits {
+    /// At this code a stop or its cushion may hold it.
+    #[inline(always)]
+    pub(super) fn near_stop(&self, code: u16) -> bool {
+        let [first, last] = self.stops;
+        code < first || code > last
+    }
+}
+
 /// Pressures of a driven side that move an actuator without stalling it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Free {
@@ -73,9 +82,7 @@ impl Stuck {
             return silent;
         }
         self.travel += ahead;
-        let [low, high] = limits.stops;
-        let held = code < low || code > high;
-        silent || (!held && far(self.travel, limits.travel) && self.stands_free(sure, free, sides))
+        silent || (!limits.near_stop(code) && far(self.travel, limits.travel) && self.stands_free(sure, free, sides))
     }
 
     /// Standing though nothing holds it back, long enough. Not inlined: it is for faults and stalls.

@@ -45,6 +45,12 @@ struct Load {
 impl Load {
     const UNKNOWN: (Option<[f32; 2]>, [f32; 2]) = (None, [1.0; 2]);
 
+    /// Of a cylinder with these areas and overruns, of which nothing is known yet.
+    const fn new(areas_m2: [f32; 2], overrun_n: [f32; 2], trend: f32) -> Self {
+        let (push_n, told) = Self::UNKNOWN;
+        Self { areas_m2, overrun_n, push_n, trend, told }
+    }
+
     #[inline(always)]
     fn weigh(&mut self, sides: &[Option<f32>; 2]) {
         let [Some(head), Some(rod)] = *sides else {
@@ -92,15 +98,11 @@ pub(super) struct Overrun {
 
 impl Overrun {
     pub(super) fn new(p: &LawParameters) -> Self {
-        let mut overruns = p.overrun_n.into_iter();
-        // As many overruns as areas.
-        let mut load = |areas_m2, trend| {
-            let overrun_n = overruns.next().unwrap_or_default();
-            Load { areas_m2, overrun_n, push_n: None, trend, told: [1.0; 2] }
-        };
         let [boom, arm, bucket] = p.areas_m2;
+        let [of_boom, of_arm, of_bucket] = p.overrun_n;
+        let loads = [Load::new(boom, of_boom, OF_BOOM), Load::new(arm, of_arm, 1.0), Load::new(bucket, of_bucket, 1.0)];
         let swing = Inertia { overrun: p.swing_overrun_radps2, speed: 0.0, braking: 0.0 };
-        Self { swing, loads: [load(boom, OF_BOOM), load(arm, 1.0), load(bucket, 1.0)], turn: 0 }
+        Self { swing, loads, turn: 0 }
     }
 
     /// Nothing is known yet.
@@ -153,7 +155,7 @@ mod tests {
 
     /// A cylinder that extending runs ahead above 1 kN and retracting above 4 kN, with these sides.
     fn told(head_pa: Option<f32>, rod_pa: Option<f32>, speed: f32) -> f32 {
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, trend: 1.0, told: [1.0; 2] };
+        let load = Load::new([0.01, 0.005], [1e3, 4e3], 1.0);
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
         let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
         (0..LOADS).for_each(|_| overrun.weigh(&[[head_pa, rod_pa]; 3]));
@@ -183,8 +185,7 @@ mod tests {
 
     #[test]
     fn of_a_load_that_changes_steadily_its_value_of_now_counts() {
-        let mut load =
-            Load { areas_m2: [0.01, 0.005], overrun_n: [1e3, 4e3], push_n: None, trend: 1.0, told: [1.0; 2] };
+        let mut load = Load::new([0.01, 0.005], [1e3, 4e3], 1.0);
         let mut head_pa = 0.8e6;
         for _ in 0..1000 {
             head_pa += 1e3;
@@ -198,7 +199,7 @@ mod tests {
     #[test]
     fn a_swing_runs_ahead_while_it_brakes_and_only_then() {
         let swing = Inertia { overrun: 0.02, speed: 0.0, braking: 0.0 };
-        let load = Load { areas_m2: [0.01, 0.005], overrun_n: [1e3; 2], push_n: None, trend: 1.0, told: [1.0; 2] };
+        let load = Load::new([0.01, 0.005], [1e3; 2], 1.0);
         let mut overrun = Overrun { swing, loads: [load; 3], turn: 0 };
         for sign in [1.0, -1.0] {
             overrun.reset();

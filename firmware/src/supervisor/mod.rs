@@ -116,7 +116,6 @@ impl Supervisor {
     /// [`Self::judge`], which stays [`Gate::Open`], and else nothing has been judged yet.
     #[inline(always)]
     pub fn goes_on(&mut self, inputs: &Inputs, (supply_v, sensor_supply_v): (f32, f32), faulty: bool) -> bool {
-        let within = |volts: f32, [low, high]: [f32; 2]| volts >= low && volts <= high;
         let goes_on = self.state == State::Running
             && self.self_test_passed
             && inputs.cut_off_closed
@@ -203,8 +202,6 @@ impl Supervisor {
     /// What else is wrong this tick, most urgent first.
     #[inline]
     fn wrong(&self, inputs: &Inputs, watched: &Watched) -> Option<Fault> {
-        // Written so that NaN is outside.
-        let outside = |volts: f32, [low, high]: [f32; 2]| !(volts >= low && volts <= high);
         let [sensors_sound, coils_sound] = inputs.converters_sound;
         if inputs.emergency_stop {
             Some(Fault::EmergencyStop)
@@ -214,11 +211,11 @@ impl Supervisor {
             Some(Fault::SensorConverter)
         } else if !coils_sound {
             Some(Fault::CoilConverter)
-        } else if outside(watched.supply_v, self.supply_range_v) {
+        } else if !within(watched.supply_v, self.supply_range_v) {
             Some(Fault::Supply)
         } else if let Some(coil) = watched.coil {
             Some(Fault::Coil(coil))
-        } else if outside(watched.sensor_supply_v, self.sensor_supply_range_v) {
+        } else if !within(watched.sensor_supply_v, self.sensor_supply_range_v) {
             Some(Fault::SensorSupply)
         } else if watched.stage_fault.is_some() {
             watched.stage_fault
@@ -228,4 +225,10 @@ impl Supervisor {
             None
         }
     }
+}
+
+/// A supply that is no number is not within.
+#[inline(always)]
+fn within(volts: f32, [low, high]: [f32; 2]) -> bool {
+    volts >= low && volts <= high
 }

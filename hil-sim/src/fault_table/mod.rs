@@ -10,7 +10,7 @@ pub use page::page;
 
 /// Runs of every fault in every situation that the page is made of.
 pub const SEEDS: u32 = 12;
-/// Seed of all its cases, and the machine.
+/// Seed of all its cases.
 pub const SEED: u64 = 1;
 /// The machine it speaks of: the one with a 20 t class's hydraulics.
 pub const MACHINE: &str = "zx200";

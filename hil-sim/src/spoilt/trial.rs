@@ -122,13 +122,14 @@ pub(super) fn run(stages: &[Stage], image: &Image, seed: u64, index: u64) -> Res
         Spoil::LoseTicks(_) => What::OneTick,
         Spoil::Flip { .. } => What::Bit(zone),
     };
-    let found = judged(stage, &place, &log, what, at_tick);
+    let (came, astray_m) = judged(stage, &place, &log, at_tick);
     let watch_instructions = place.finish().map_err(|error| error.to_string())?;
     let scenario = SCENARIOS[index as usize % SCENARIOS.len()];
-    Ok(Found { case: index, scenario, watch_instructions, ..found })
+    Ok(Found { case: index, scenario, what, came, astray_m, watch_instructions })
 }
 
-fn judged(stage: &Stage, place: &Spoilt, log: &Log, what: What, at_tick: u32) -> Found {
+/// What came of it, and how far the tip was from where it would have been while the outputs were on, m.
+fn judged(stage: &Stage, place: &Spoilt, log: &Log, at_tick: u32) -> (Came, f64) {
     let off_at = place.pins.iter().zip(&stage.pins).position(|(pins, healthy)| is_off(pins) && !is_off(healthy));
     let until = off_at.unwrap_or(log.rows.len());
     let pairs = log.rows.iter().zip(&stage.log.rows).take(until);
@@ -146,7 +147,7 @@ fn judged(stage: &Stage, place: &Spoilt, log: &Log, what: What, at_tick: u32) ->
         None if astray_m <= SLIGHT_M => Came::Slight { astray_m },
         None => Came::Astray { astray_m },
     };
-    Found { case: 0, scenario: "", what, came, astray_m, watch_instructions: None }
+    (came, astray_m)
 }
 
 fn is_off(pins: &Pins) -> bool {

@@ -42,10 +42,12 @@ motion. The tests named below print what they measured, and the wait before it.
 
 A healthy actuator starts 0 to 250 ms after its command, follows it with a lag of up to 0.1 s, overshoots by up to one and a half times (a
 weight drives the oil faster than the pump), and runs on for up to 2 s after that dead time, from at most 1.25 times the fastest speed of the last
-second; a released speed may ring back, of a standing one half may bounce back off soil. A mass on closed oil swings for seconds: released, it
-may swing back at 1.25 times what it was seen to swing out, a memory that fades within a second. But what swings comes back: a released
+second; a released speed may ring back, of a standing one half may bounce back off soil. A mass on closed oil swings for seconds: it may
+swing back at 1.25 times what it was seen to swing out, a memory that fades within a second and that a small command does not end. But what swings comes back: a released
 cylinder that keeps its way may be beyond the straight line, on which the speed it was measured at falls to rest 2 s after the release, for 344 ms
 at most, half a swing at 1.45 Hz; longer, and its spool sticks open. A swing motor coasts for as long as its brake valves let it.
+Oil that was pressed against a stop may push an actuator off it at half its full speed more than any command that lets it, within a thirty-second of
+the stroke.
 Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 56 ms is motion *uncommanded* or *against the command*. The slowest
 healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 96 ms and 5 mm of predicted
 travel is *stuck*, a living sensor's noise never stands still so long; one that keeps its noise is stuck when the driven side's pressure is
