@@ -1,6 +1,7 @@
 //! The report of a run in a browser: nothing goes wrong in it, the machine moves, no figure is empty. And a broken page is found out.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use cross_tests::browser::{self, Seen};
 use cross_tests::rig::scenario;
@@ -9,7 +10,11 @@ use hil_sim::report;
 use hil_sim::run::{Run, Summary};
 use serde_json::Value;
 
-/// The report of this scenario's run.
+/// The report of the dig through soil: written once, as tests run at the same time and one would read what another has
+/// half written.
+static SOIL: LazyLock<String> = LazyLock::new(|| page("soil-dig-zx200"));
+
+/// The report of this scenario's run. Each test asks for one of its own.
 fn page(name: &str) -> String {
     let scenario = scenario(name);
     let mut host = Host::new(&scenario.parameters).expect("accepted parameters");
@@ -72,7 +77,7 @@ fn titles(seen: &Seen) -> String {
 #[test]
 #[ignore = "needs Chromium: run cargo xtask test"]
 fn a_dig_through_soil_plays_without_an_error_and_with_every_figure_drawn() {
-    let seen = open("soil", &page("soil-dig-zx200"));
+    let seen = open("soil", &SOIL);
     assert_eq!(faults(&seen), [""; 0]);
     let moments = &probe(&seen).expect("a probe")["moments"];
     assert_ne!(moments["start"]["soil"], moments["moved"]["soil"], "the ground is cut");
@@ -94,7 +99,7 @@ fn a_run_before_a_fence_plays_from_the_side_and_from_above() {
 #[test]
 #[ignore = "needs Chromium: run cargo xtask test"]
 fn a_page_that_is_broken_is_found_out() {
-    let sound = page("soil-dig-zx200");
+    let sound = &*SOIL;
     // What is changed, into what, and what is to be said of it.
     let broken = [
         ("throws", "const slider = ", "nowhere(); const slider = ", "nowhere is not defined"),
