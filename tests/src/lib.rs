@@ -5,6 +5,7 @@
 //! - [`handled`]: bytes from outside, for the fuzz targets and the test of their corpus;
 //! - [`healthy`]: healthy actuators with noise and delay, for the diagnosis;
 //! - [`can`]: the controller's node on a bench bus;
+//! - [`obedient`]: a controller on a machine that does at once what it is told;
 //! - [`plant`]: plants of the shipped machines, levers as currents, motions timed;
 //! - [`ways`]: how far a run was from its lines;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
@@ -19,6 +20,7 @@ pub mod browser;
 pub mod can;
 pub mod handled;
 pub mod healthy;
+pub mod obedient;
 pub mod plant;
 pub mod promises;
 pub mod rig;

@@ -4,7 +4,7 @@ use bench::bits;
 use cross_tests::machines;
 use cross_tests::rig::{scenario, scenario_names};
 use firmware::Parameters;
-use hil_sim::place::{Emulator, Host, Image, Place, PlaceError};
+use hil_sim::place::{Emulator, Host, Image, Place, PlaceError, Timing};
 use hil_sim::run::{EmulatorFigures, Log, Run, RunError};
 use hil_sim::scenario::Scenario;
 
@@ -33,6 +33,16 @@ fn controller() -> Image {
     Image::build("ecu-emulated").unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// Ticks that began a millisecond after the one before, to the microsecond.
+fn punctual(log: &Log) -> usize {
+    let started = |timing: &Timing| match *timing {
+        Timing::Emulator { started_ns, .. } => started_ns,
+        Timing::Host { .. } => panic!("a run on the host"),
+    };
+    let periods = log.timing.windows(2).map(|pair| started(&pair[1]).wrapping_sub(started(&pair[0])));
+    periods.filter(|period| period.abs_diff(1_000_000) < 1_000).count()
+}
+
 #[test]
 #[ignore = "needs the emulator: run cargo xtask test"]
 fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
@@ -55,8 +65,10 @@ fn host_and_emulator_agree_on_every_output_bit_of_every_scenario() {
         assert_eq!(host.rows.len(), emulator.rows.len(), "{name}");
         assert!(figures.instructions_per_tick.max <= LONGEST_TICK, "{name}: {figures:?}");
         assert!(figures.stack_peak_bytes > 0 && figures.stack_peak_bytes <= 52 * 1024, "{name}: {figures:?}");
-        // 0 on a quiet computer. On a loaded one the emulator's virtual timer may come late: 8.5 µs were seen. A hundredth of the period.
-        assert!(figures.tick_period_jitter_ns <= 10_000, "{name}: {figures:?}");
+        // All are, on a quiet computer. On a loaded one the emulator's virtual timer may come late now and then: 88 µs were seen.
+        let punctual = punctual(&emulator);
+        println!("{name}: {punctual} of {} periods within a microsecond", emulator.rows.len() - 1);
+        assert!(punctual * 100 >= (emulator.rows.len() - 1) * 99, "{name}: {punctual} {figures:?}");
         compared += 1;
     }
     assert!(compared >= 6);

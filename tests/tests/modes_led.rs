@@ -1,81 +1,28 @@
-//! Modes the operator leads: tip velocity and grade, changed from one into the other without a jump.
+//! Modes the operator leads: tip velocity and grade.
 
+use cross_tests::obedient::Obedient;
 use cross_tests::rig::{Rig, scenario};
 use cross_tests::ways::{across, run};
-use firmware::can::command::{Slope, TipVelocity};
-use firmware::{Fault, Outputs, Parameters, Request};
+use firmware::can::command::Slope;
+use firmware::{Fault, Parameters, Request};
 use hil_sim::run::Log;
-use kinematics_core::{Cylinders, Rotor};
+use kinematics_core::Rotor;
 
 /// Lengths with the tip 7.5 m out on the ground, m.
 const ON_THE_PLANE: [f64; 3] = [2.4743624, 1.8883742, 2.5020006];
 
-/// A machine that does at once what its controller asks for.
-struct Obedient {
-    rig: Rig,
-    parameters: Parameters,
-    lengths: Cylinders<f64>,
-}
-
-impl Obedient {
-    fn new() -> Self {
-        let mut parameters = scenario("grade-zx200").parameters;
-        parameters.motion.preview_s = 0.0;
-        let plane = parameters.grade.as_mut().expect("a plane");
-        (plane.point_x_m, plane.tolerance_m) = (7.5, 1.0);
-        let mut rig = Rig::standing(&parameters, &ON_THE_PLANE);
-        rig.start();
-        let [boom, arm, bucket] = ON_THE_PLANE;
-        Self { rig, parameters, lengths: Cylinders { boom, arm, bucket } }
-    }
-
-    fn tick(&mut self) -> Outputs {
-        let outputs = self.rig.tick();
-        self.lengths.boom += f64::from(outputs.speeds.boom) * 1e-3;
-        self.lengths.arm += f64::from(outputs.speeds.arm) * 1e-3;
-        self.lengths.bucket += f64::from(outputs.speeds.bucket) * 1e-3;
-        self.rig.stand_at(&self.parameters, &self.lengths);
-        outputs
-    }
-}
-
-#[test]
-fn from_mode_to_mode_no_speed_jumps_and_nothing_faults() {
-    let mut machine = Obedient::new();
-    let steps = machine.parameters.motion.law.expect("a law").acceleration.map(|a| a * 1e-3);
-    let inwards = TipVelocity { x_mps: -0.3, z_mps: 0.1, pitch_radps: 0.1 };
-    let modes = [
-        (Request::Levers, [0, 12_000, 16_000, -9_000]),
-        (Request::TipVelocity, [0; 4]),
-        (Request::Grade, [0, 0, 16_000, 0]),
-        (Request::Levers, [8_000, -12_000, -16_000, 9_000]),
-        (Request::Grade, [0, 0, -12_000, 0]),
-        (Request::Neutral, [0; 4]),
-        (Request::TipVelocity, [0; 4]),
-        (Request::Neutral, [0; 4]),
-    ];
-    let mut before = [0.0_f32; 4];
-    let mut fastest = 0.0_f32;
-    for (request, levers) in modes {
-        (machine.rig.request, machine.rig.levers, machine.rig.tip) = (request, levers, inwards);
-        for tick in 0..700 {
-            let outputs = machine.tick();
-            assert_eq!(outputs.fault, None, "{request:?}, tick {tick}");
-            let speeds = outputs.speeds.to_array();
-            for ((speed, before), step) in speeds.into_iter().zip(before).zip(steps) {
-                assert!((speed - before).abs() <= step * 1.001, "{request:?}, tick {tick}: {before} → {speed}");
-                fastest = f32::max(fastest, speed.abs());
-            }
-            before = speeds;
-        }
-    }
-    assert!(fastest > 0.1, "{fastest}");
-    assert_eq!(before, [0.0; 4], "neutral ends at rest");
+/// On the plane, a machine that does at once what its controller asks for.
+fn obedient() -> Obedient {
+    let mut parameters = scenario("grade-zx200").parameters;
+    parameters.motion.preview_s = 0.0;
+    let plane = parameters.grade.as_mut().expect("a plane");
+    (plane.point_x_m, plane.tolerance_m) = (7.5, 1.0);
+    Obedient::new(parameters, &ON_THE_PLANE)
 }
 
 /// Direction of the tip's way while the arm's lever is held, in the machine's frame.
 fn graded(slope: Option<Slope>) -> f64 {
-    let mut machine = Obedient::new();
+    let mut machine = obedient();
     machine.rig.inputs.slope = slope;
     (machine.rig.request, machine.rig.levers) = (Request::Grade, [0, 0, 16_000, 0]);
     let ticks = (0..6000).map(|_| machine.tick());

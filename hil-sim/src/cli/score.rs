@@ -52,10 +52,11 @@ fn run(args: &ScoreArgs) -> Result<Report, Box<dyn Error>> {
 
 fn table(report: &Report) -> String {
     let mut out = format!(
-        "{}: {} drawn plants, simulated; distances of the true tip from the path [mm]\n  {:<13} {:>5} {:>6} {:>6} {:>6} | {:>9} {:>9} {:>12} \
-         {:>9} | {:>7} {:>6}\n",
+        "{}: {} drawn plants {}, simulated; distances of the true tip from the path [mm], RMS/max where two stand\n  \
+         {:<13} {:>5} {:>6} {:>6} {:>6} | {:>9} {:>9} {:>12} {:>11} | {:>7} {:>6}\n",
         report.machine,
         report.seeds,
+        report.plants.described(),
         "task",
         "m/s",
         "RMS",
@@ -69,11 +70,13 @@ fn table(report: &Report) -> String {
         "still"
     );
     let mm = |m: Option<f64>| m.map_or("–".to_owned(), |m| format!("{:.1}", m * 1e3));
+    let both =
+        |rms: Option<f64>, max: Option<f64>| rms.map_or("–".to_owned(), |_| format!("{}/{}", mm(rms), mm(max)));
     for row in &report.tasks {
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "  {:<13} {:>5} {:>6.1} {:>6.1} {:>6.1} | {:>9} {:>9} {:>12} {:>9} | {:>4}/{:<2} {:>3}/{:<2}",
+            "  {:<13} {:>5} {:>6.1} {:>6.1} {:>6.1} | {:>9} {:>9} {:>12} {:>11} | {:>4}/{:<2} {:>3}/{:<2}",
             row.name,
             row.speed_mps,
             row.rmse_m * 1e3,
@@ -81,8 +84,8 @@ fn table(report: &Report) -> String {
             row.max_m * 1e3,
             mm(row.open_loop_rmse_m),
             mm(row.proportional_rmse_m),
-            mm(row.uncalibrated_rmse_m),
-            mm(row.half_flow_rmse_m),
+            both(row.uncalibrated_rmse_m, row.uncalibrated_max_m),
+            both(row.half_flow_rmse_m, row.half_flow_max_m),
             row.completed,
             row.plants,
             row.still_at_rest,

@@ -21,7 +21,8 @@ pub use task::{LAW, Task};
 pub const SPEEDS_MPS: [f64; 2] = [0.3, 0.5];
 
 /// Which plants are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Plants {
     /// Those kept for the score: no tuning has used one.
     HeldOut,
@@ -30,7 +31,15 @@ pub enum Plants {
 }
 
 impl Plants {
-    /// Seeds of the drawn plants begin here.
+    /// What is said of them in a table.
+    pub const fn described(self) -> &'static str {
+        match self {
+            Self::HeldOut => "kept for the score",
+            Self::Tuning => "to tune on",
+        }
+    }
+
+    /// Seed of the first plant drawn; the others follow it.
     const fn first(self) -> u64 {
         match self {
             Self::HeldOut => 0x5c0e_0000,
@@ -67,7 +76,7 @@ pub struct Row {
     pub p95_m: f64,
     /// Largest, m.
     pub max_m: f64,
-    /// The better one of open loop and proportional alone, m.
+    /// The better one of open loop and proportional alone, m; like all that is compared with, `None` for a score of ours alone.
     pub baseline_rmse_m: Option<f64>,
     /// Feed-forward alone, m.
     pub open_loop_rmse_m: Option<f64>,
@@ -79,6 +88,8 @@ pub struct Row {
     pub uncalibrated_max_m: Option<f64>,
     /// Ours with half the pump's flow, m.
     pub half_flow_rmse_m: Option<f64>,
+    /// Its largest, m.
+    pub half_flow_max_m: Option<f64>,
     /// Runs of ours that came to the end of the path without a fault.
     pub completed: usize,
     /// Runs of ours whose coils were still in the last second.
@@ -124,6 +135,10 @@ pub struct Report {
     pub machine: String,
     /// Plants drawn.
     pub seeds: u32,
+    /// Which.
+    pub plants: Plants,
+    /// The seed each plant was drawn with, in the order of their numbers.
+    pub plant_seeds: Vec<u64>,
     /// A row a task and speed.
     pub tasks: Vec<Row>,
 }
@@ -177,7 +192,14 @@ pub fn score(machine: &MachineFile, setting: &Setting, shard: Shard, done: impl 
         .collect::<Result<_, String>>()?;
     let results: Vec<Result1> = results.into_iter().flatten().collect();
     let tasks = bases.iter().enumerate().map(|(index, (task, speed_mps, _))| row(*task, *speed_mps, index, &results));
-    Ok(Report { machine: machine.name.clone(), seeds: setting.seeds, tasks: tasks.collect() })
+    let first = setting.plants.first();
+    Ok(Report {
+        machine: machine.name.clone(),
+        seeds: setting.seeds,
+        plants: setting.plants,
+        plant_seeds: (first..first + u64::from(setting.seeds)).collect(),
+        tasks: tasks.collect(),
+    })
 }
 
 fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Result<Deviation, String> {
@@ -209,23 +231,23 @@ fn row(task: Task, speed_mps: f64, index: usize, results: &[Result1]) -> Row {
         let (squares, ticks) = of(controller).fold((0.0, 0), |(s, n), d| (s + d.squares, n + d.ticks));
         (ticks > 0).then(|| libm::sqrt(squares / ticks as f64))
     };
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let (open, proportional) = (rmse(Controller::OpenLoop), rmse(Controller::Proportional));
-    let uncalibrated_rmse_m = rmse(Controller::Uncalibrated);
+    let max = |controller| of(controller).map(|d| d.max_m).reduce(f64::max);
     let by_plant = by_plant(index, results);
     Row {
         name: task.name(),
         speed_mps,
         plants: of(Controller::Ours).count(),
         rmse_m: rmse(Controller::Ours).unwrap_or(f64::NAN),
-        p95_m: largest(&mut of(Controller::Ours).map(|d| d.p95_m)),
-        max_m: largest(&mut of(Controller::Ours).map(|d| d.max_m)),
+        p95_m: of(Controller::Ours).map(|d| d.p95_m).reduce(f64::max).unwrap_or(f64::NAN),
+        max_m: max(Controller::Ours).unwrap_or(f64::NAN),
         baseline_rmse_m: open.zip(proportional).map(|(open, proportional)| open.min(proportional)),
         open_loop_rmse_m: open,
         proportional_rmse_m: proportional,
-        uncalibrated_rmse_m,
-        uncalibrated_max_m: uncalibrated_rmse_m.map(|_| largest(&mut of(Controller::Uncalibrated).map(|d| d.max_m))),
+        uncalibrated_rmse_m: rmse(Controller::Uncalibrated),
+        uncalibrated_max_m: max(Controller::Uncalibrated),
         half_flow_rmse_m: rmse(Controller::HalfFlow),
+        half_flow_max_m: max(Controller::HalfFlow),
         completed: by_plant.iter().filter(|on| on.completed()).count(),
         still_at_rest: of(Controller::Ours).filter(|d| d.still).count(),
         by_plant,
