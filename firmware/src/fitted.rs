@@ -61,7 +61,7 @@ impl Fitted {
 
     /// Motion and fence start over.
     pub(crate) fn reset(&mut self) {
-        self.followers.start_over();
+        self.followers.reset();
         if let Some(fence) = &mut self.fence {
             fence.get_mut().reset();
         }

@@ -9,6 +9,7 @@
 //! - [`plant`]: plants of the shipped machines, levers as currents, motions timed;
 //! - [`ways`]: how far a run was from its lines;
 //! - [`rig`]: a controller on a bench, its inputs set by hand;
+//! - [`on_oil`]: a controller on the hydraulic plant, led by hand;
 //! - [`promises`]: the text scan that keeps `unsafe`, trigonometry and host-dependent float functions out of the loop.
 
 pub use reference::{
@@ -21,6 +22,7 @@ pub mod can;
 pub mod handled;
 pub mod healthy;
 pub mod obedient;
+pub mod on_oil;
 pub mod plant;
 pub mod promises;
 pub mod rig;

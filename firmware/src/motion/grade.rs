@@ -4,7 +4,7 @@ use kinematics_core::jacobian::Twist;
 use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor, Vec2};
 
 use super::Wanted;
-use super::coordinated::{Ahead, Coordination};
+use super::coordinated::{Ahead, Coordination, kept};
 use super::delays::Delays;
 use super::resolve::resolve;
 use super::sum::Sum;
@@ -70,8 +70,9 @@ impl GradeFollower {
         Vec2::new(roll.cos * pitch.cos, 0.0 - up).direction().unwrap_or(Rotor::IDENTITY)
     }
 
+    /// Where on the plane the tip will be, and how fast along it.
     #[inline(never)]
-    fn begin(
+    fn take_over(
         &self,
         machine: &Machine<f32>,
         shared: &mut Coordination,
@@ -79,15 +80,18 @@ impl GradeFollower {
         swing: Rotor<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Led, Fault> {
-        let start = shared.begin(lengths, self.preview_s);
-        let tip = machine.cylinders_to_tip(&start, Rotor::IDENTITY).map_err(|_| Fault::Geometry)?.plane;
+        let (tip, velocity) = shared.take_over(machine, lengths, self.preview_s)?;
         let along = Self::level(slope, swing) * self.slope;
+        let speed = along.to_vec().dot(Vec2::new(velocity.reach, velocity.height));
+        let led = self.led_at(*lengths, &tip, along, speed);
+        let off = led.off.value();
+        if off > self.tolerance_m || off < -self.tolerance_m { Err(Fault::NotAtStart) } else { Ok(led) }
+    }
+
+    fn led_at(&self, start: Cylinders<f32>, tip: &PlaneTip<f32>, along: Rotor<f32>, speed: f32) -> Led {
         let from = Vec2::new(tip.reach, tip.height) - self.point;
-        let (way, off) = (along.to_vec().dot(from), along.to_vec().cross(from));
-        if off > self.tolerance_m || off < -self.tolerance_m {
-            return Err(Fault::NotAtStart);
-        }
-        Ok(Led { start, pitch: tip.pitch, along, way: Sum::new(way), off: Sum::new(off), speed: 0.0, elapsed: 0 })
+        let [way, off] = [along.to_vec().dot(from), along.to_vec().cross(from)].map(Sum::new);
+        Led { start, pitch: tip.pitch, along, way, off, speed, elapsed: 0 }
     }
 
     /// One tick; `arm_mps` is the speed the lever asks of the arm's cylinder. The chassis' slope counts when grading begins.
@@ -102,8 +106,9 @@ impl GradeFollower {
     ) -> Result<Wanted, Fault> {
         let mut led = match self.led {
             Some(led) => led,
-            None => self.begin(machine, shared, slope, pose.swing, lengths)?,
+            None => self.take_over(machine, shared, slope, pose.swing, lengths)?,
         };
+        let taken_over = self.led.is_none();
         let (along, off) = (led.along.to_vec(), led.off.value());
         let up = Vec2::new(0.0 - along.z, along.x);
         let place = self.point + along.scale(led.way.value()) + up.scale(off);
@@ -116,8 +121,17 @@ impl GradeFollower {
         let (ahead, [boom, arm, bucket]) = resolve(machine, &tip, &a_metre)?;
         // Where the arm hardly moves the tip along the plane the largest speed is the limit; without a lever there is none.
         let asked = if arm_mps == 0.0 { 0.0 } else { limited(arm_mps / arm, -self.speed_mps, self.speed_mps) };
-        let speed = limited(asked, led.speed - self.step_mps, led.speed + self.step_mps);
+        let speed = if taken_over {
+            kept(led.speed, asked)
+        } else {
+            limited(asked, led.speed - self.step_mps, led.speed + self.step_mps)
+        };
         let rates = [0.0, boom * speed, arm * speed, bucket * speed];
+        if taken_over {
+            let (start, tip) = shared.begin(machine, &ahead, rates)?;
+            self.led = Some(self.led_at(start, &tip, led.along, speed));
+            return Ok(shared.goes_on(lengths));
+        }
         let factor = shared.factor(rates, 1.0, &ahead);
         led.speed = speed * factor;
         led.way.add(led.speed * TICK_S);

@@ -134,6 +134,14 @@ impl Followers {
             reach.get_mut().reset();
         }
         if let Some(modes) = &mut self.modes {
+            modes.get_mut().start_over();
+        }
+    }
+
+    /// And nothing is under way.
+    pub(crate) fn reset(&mut self) {
+        self.start_over();
+        if let Some(modes) = &mut self.modes {
             modes.get_mut().reset();
         }
     }
@@ -192,13 +200,17 @@ impl Motion {
     ) -> Result<Wanted, Fault> {
         if !running {
             self.reset();
-            followers.start_over();
+            followers.reset();
             return Ok(Wanted::hold(lengths));
         }
         if intent.request != self.request {
             followers.start_over();
         }
         self.request = intent.request;
+        // In every mode, so that the next one knows the loads from its first tick.
+        if let Some(modes) = followers.modes.as_mut() {
+            modes.get_mut().weigh(pressures_pa);
+        }
         let wanted = match intent.request {
             Request::Neutral => Wanted::hold(lengths),
             Request::Dig => {
@@ -215,8 +227,9 @@ impl Motion {
             }
             Request::Levers => {
                 let asked = self.levers.speeds(intent.levers);
+                let told = near(&self.slew).as_ref().map_or([0.0; 4], Slew::speeds);
                 let modes = followers.modes.as_mut();
-                let speeds = modes.map_or(asked, |modes| modes.get_mut().cushion(lengths, asked));
+                let speeds = modes.map_or(asked, |modes| modes.get_mut().cushion(lengths, told, asked));
                 Wanted { speeds, ..Wanted::hold(lengths) }
             }
             Request::TipVelocity | Request::Grade | Request::Path => {
@@ -226,7 +239,6 @@ impl Motion {
                 let arm_mps = if grades { self.levers.arm_mps(intent.levers) } else { 0.0 };
                 let Followers { delays, modes, .. } = followers;
                 let modes = modes.as_mut().ok_or(Fault::NotConfigured)?.get_mut();
-                modes.weigh(pressures_pa);
                 modes.follow(machine, (intent, arm_mps, slope), (speeds, delays), pose, lengths)?
             }
         };

@@ -26,6 +26,7 @@ pub(super) struct Modes {
     path: Option<PathFollower>,
     grade: Option<GradeFollower>,
     tip: TipFollower,
+    preview_s: f32,
 }
 
 impl Modes {
@@ -37,11 +38,19 @@ impl Modes {
             path: path.map_err(ParameterError::Path)?,
             grade: p.grade.as_ref().map(|grade| GradeFollower::new(grade, preview_s, law)),
             tip: TipFollower::new(preview_s, law),
+            preview_s,
         })
     }
 
+    /// Nothing is under way: what was known of loads is forgotten too.
     pub(super) fn reset(&mut self) {
         self.shared.overrun.reset();
+        self.start_over();
+    }
+
+    /// Another mode begins.
+    pub(super) fn start_over(&mut self) {
+        self.shared.overrun.start_over();
         self.tip.reset();
         if let Some(path) = &mut self.path {
             path.reset();
@@ -51,10 +60,13 @@ impl Modes {
         }
     }
 
-    /// Lever speeds, slow enough before the ends of the strokes.
+    /// Lever speeds, slow enough before the ends of the strokes, where what the actuators were `told` last will have brought them when this is
+    /// heard.
     #[inline]
-    pub(super) fn cushion(&self, lengths: &Cylinders<f32>, speeds: Speeds) -> Speeds {
-        self.shared.limits.cushion(lengths, speeds)
+    pub(super) fn cushion(&mut self, lengths: &Cylinders<f32>, told: [f32; 4], speeds: Speeds) -> Speeds {
+        self.shared.speeds = told;
+        let heard = self.shared.ahead(lengths, self.preview_s);
+        self.shared.limits.cushion(&heard, speeds)
     }
 
     /// One tick's pressures.
@@ -74,7 +86,7 @@ impl Modes {
         pose: &Pose<f32>,
         lengths: &Cylinders<f32>,
     ) -> Result<Wanted, Fault> {
-        let Self { shared, path, grade, tip } = self;
+        let Self { shared, path, grade, tip, .. } = self;
         let shared = (near(shared), near(delays));
         match intent.request {
             Request::TipVelocity => {

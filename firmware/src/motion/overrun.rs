@@ -105,9 +105,14 @@ impl Overrun {
         Self { swing, loads, turn: 0 }
     }
 
+    /// Another mode begins: loads stay what they are.
+    pub(super) fn start_over(&mut self) {
+        (self.swing.speed, self.swing.braking) = (0.0, 0.0);
+    }
+
     /// Nothing is known yet.
     pub(super) fn reset(&mut self) {
-        (self.swing.speed, self.swing.braking) = (0.0, 0.0);
+        self.start_over();
         self.loads.iter_mut().for_each(|load| (load.push_n, load.told) = Load::UNKNOWN);
     }
 
@@ -138,6 +143,14 @@ impl Overrun {
         } else {
             speed
         }
+    }
+
+    /// The speeds that are meant by what the valves are told.
+    #[inline]
+    pub(super) fn meant(&self, [boom, arm, bucket]: [f32; 3]) -> [f32; 3] {
+        let [of_boom, of_arm, of_bucket] = &self.loads;
+        let meant = |told: f32, load: &Load| told / if told > 0.0 { load.told[0] } else { load.told[1] };
+        [meant(boom, of_boom), meant(arm, of_arm), meant(bucket, of_bucket)]
     }
 
     /// What the valves are told, so that boom, arm and bucket go at these speeds.

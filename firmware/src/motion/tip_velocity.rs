@@ -4,7 +4,7 @@ use kinematics_core::jacobian::Twist;
 use kinematics_core::{Cylinders, Machine, PlaneTip, Pose, Rotor};
 
 use super::Wanted;
-use super::coordinated::{Ahead, Coordination};
+use super::coordinated::{Ahead, Coordination, kept};
 use super::delays::Delays;
 use super::resolve::resolve;
 use super::sum::Sum;
@@ -27,6 +27,13 @@ struct Led {
     pitch_turns: Sum,
     velocity: Twist<f32>,
     elapsed: u32,
+}
+
+impl Led {
+    fn at(start: Cylinders<f32>, tip: &PlaneTip<f32>, velocity: Twist<f32>) -> Self {
+        let [x, z, pitch_turns] = [tip.reach, tip.height, 0.0].map(Sum::new);
+        Self { start, pitch: tip.pitch, x, z, pitch_turns, velocity, elapsed: 0 }
+    }
 }
 
 /// The follower of the operator's velocity.
@@ -52,19 +59,21 @@ impl TipFollower {
         self.led = None;
     }
 
-    #[inline(never)]
-    fn begin(&self, machine: &Machine<f32>, shared: &mut Coordination, lengths: &Cylinders<f32>) -> Result<Led, Fault> {
-        let start = shared.begin(lengths, self.preview_s);
-        let tip = machine.cylinders_to_tip(&start, Rotor::IDENTITY).map_err(|_| Fault::Geometry)?.plane;
-        Ok(Led {
-            start,
-            pitch: tip.pitch,
-            x: Sum::new(tip.reach),
-            z: Sum::new(tip.height),
-            pitch_turns: Sum::new(0.0),
-            velocity: Twist { reach: 0.0, height: 0.0, pitch: 0.0 },
-            elapsed: 0,
-        })
+    /// The velocity under way, as far as it is wanted too.
+    fn take_over(
+        &self,
+        machine: &Machine<f32>,
+        shared: &mut Coordination,
+        wanted: &TipVelocity,
+        lengths: &Cylinders<f32>,
+    ) -> Result<Led, Fault> {
+        let (tip, velocity) = shared.take_over(machine, lengths, self.preview_s)?;
+        let velocity = Twist {
+            reach: kept(velocity.reach, wanted.x_mps),
+            height: kept(velocity.height, wanted.z_mps),
+            pitch: kept(velocity.pitch, wanted.pitch_radps),
+        };
+        Ok(Led::at(*lengths, &tip, velocity))
     }
 
     /// One tick towards the wanted velocity.
@@ -79,18 +88,28 @@ impl TipFollower {
     ) -> Result<Wanted, Fault> {
         let mut led = match self.led {
             Some(led) => led,
-            None => self.begin(machine, shared, lengths)?,
+            None => self.take_over(machine, shared, wanted, lengths)?,
         };
         let v = led.velocity;
-        let velocity = Twist {
-            reach: limited(wanted.x_mps, v.reach - self.step_mps, v.reach + self.step_mps),
-            height: limited(wanted.z_mps, v.height - self.step_mps, v.height + self.step_mps),
-            pitch: limited(wanted.pitch_radps, v.pitch - self.step_radps, v.pitch + self.step_radps),
+        let taken_over = self.led.is_none();
+        let velocity = if taken_over {
+            v
+        } else {
+            Twist {
+                reach: limited(wanted.x_mps, v.reach - self.step_mps, v.reach + self.step_mps),
+                height: limited(wanted.z_mps, v.height - self.step_mps, v.height + self.step_mps),
+                pitch: limited(wanted.pitch_radps, v.pitch - self.step_radps, v.pitch + self.step_radps),
+            }
         };
         let pitch = led.pitch * Rotor::from_turns(led.pitch_turns.value());
         let tip = PlaneTip { reach: led.x.value(), height: led.z.value(), pitch };
         let (ahead, [boom, arm, bucket]) = resolve(machine, &tip, &velocity)?;
         let rates = [0.0, boom, arm, bucket];
+        if taken_over {
+            let (start, tip) = shared.begin(machine, &ahead, rates)?;
+            self.led = Some(Led::at(start, &tip, velocity));
+            return Ok(shared.goes_on(lengths));
+        }
         let factor = shared.factor(rates, 1.0, &ahead);
         let [reach, height, pitch] = [velocity.reach, velocity.height, velocity.pitch].map(|v| v * factor);
         led.velocity = Twist { reach, height, pitch };

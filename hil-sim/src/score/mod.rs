@@ -105,6 +105,8 @@ pub struct OnPlant {
     pub plant: u64,
     /// Of the true tip normal to the path, m.
     pub rmse_m: f64,
+    /// Control periods that is the mean of: parts of a score are joined by them.
+    pub ticks: usize,
     /// Largest, m.
     pub max_m: f64,
     /// When it was, s.
@@ -202,7 +204,21 @@ pub fn score(machine: &MachineFile, setting: &Setting, shard: Shard, done: impl 
     })
 }
 
-fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Result<Deviation, String> {
+/// The scenario of one case of ours: a drawn plant, its controller as calibration has left it.
+///
+/// # Errors
+/// The machine has no hydraulics, or cannot do the task.
+pub fn case(
+    machine: &MachineFile,
+    (task, speed_mps): (Task, f64),
+    plants: Plants,
+    number: u64,
+) -> Result<Scenario, String> {
+    fitted(&task.scenario(machine, speed_mps, LAW)?, Controller::Ours, plants.first() + number)
+}
+
+/// This plant instead of the nominal one, and what the controller takes it for.
+fn fitted(base: &Scenario, controller: Controller, plant: u64) -> Result<Scenario, String> {
     let mut scenario = base.clone();
     let nominal = scenario.hydraulic.clone().ok_or("the plant is not hydraulic")?;
     let mut drawn = nominal.drawn(plant);
@@ -218,6 +234,11 @@ fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Resul
     }
     controller.apply(&mut scenario.parameters, &mut drawn);
     scenario.hydraulic = Some(drawn);
+    Ok(scenario)
+}
+
+fn run(base: &Scenario, task: Task, controller: Controller, plant: u64) -> Result<Deviation, String> {
+    let scenario = fitted(base, controller, plant)?;
     let mut host = Host::new(&scenario.parameters).map_err(|error| format!("{}: {error}", task.name()))?;
     let run = Run::new(&scenario, plant).map_err(|error| format!("{}: {error}", task.name()))?;
     let log = run.complete(&mut host, |_, _| {}).map_err(|error| error.to_string())?;
@@ -262,6 +283,7 @@ fn by_plant(index: usize, results: &[Result1]) -> Vec<OnPlant> {
         OnPlant {
             plant: ours.plant,
             rmse_m: d.rmse_m(),
+            ticks: d.ticks,
             max_m: d.max_m,
             max_at_s: d.max_at_s,
             to_end_m: d.to_end_m,

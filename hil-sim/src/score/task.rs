@@ -118,8 +118,10 @@ impl Controller {
 
     /// Changes the controller's parameters, and the plant where it has half the flow.
     pub(super) fn apply(self, parameters: &mut Parameters, plant: &mut HydraulicModel) {
-        // What is compared shall not stop on the way.
-        parameters.motion.following_error_m = 0.5;
+        if matches!(self, Self::OpenLoop | Self::Proportional) {
+            // What ours is compared with shall not stop on the way.
+            parameters.motion.following_error_m = 0.5;
+        }
         let Some(law) = &mut parameters.motion.law else { return };
         match self {
             Self::Ours | Self::Uncalibrated => {}
