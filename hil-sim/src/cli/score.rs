@@ -17,7 +17,7 @@ pub struct ScoreArgs {
     /// Plants drawn, 1 to 10000
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     seeds: u32,
-    /// A machine with `[hydraulics]`: its name, or the path of its file
+    /// A machine with `[hydraulics]` and the reach of the 20 t class, which the tasks are laid out for: its name, or the path of its file
     #[arg(long, default_value = "zx200")]
     machine: String,
     /// Draw the plants to tune on instead of those kept for the score

@@ -7,7 +7,7 @@ use crate::run::{FaultSeen, Log, Row};
 /// What a run leaves of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deviation {
-    /// Distances to the path at every tick of the motion, squared and summed, m².
+    /// Distances to the path at every tick of the motion and of the second in which it settles, squared and summed, m².
     pub(super) squares: f64,
     /// Ticks.
     pub(super) ticks: usize,
@@ -21,7 +21,7 @@ pub(super) struct Deviation {
     pub(super) fault: Option<FaultSeen>,
     /// From the path's end at last, m.
     pub(super) to_end_m: f64,
-    /// No coil changed its current in the last second.
+    /// No coil changed its current in the last second, which is after the path has let go of them.
     pub(super) still: bool,
 }
 

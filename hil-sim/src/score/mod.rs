@@ -80,13 +80,13 @@ pub struct Row {
     pub baseline_rmse_m: Option<f64>,
     /// Feed-forward alone, m.
     pub open_loop_rmse_m: Option<f64>,
-    /// Error times gain alone, m.
+    /// Error times gain, without feed-forward, preview and learning, m.
     pub proportional_rmse_m: Option<f64>,
     /// Ours with the nominal plant's valve map, m.
     pub uncalibrated_rmse_m: Option<f64>,
     /// Its largest, m.
     pub uncalibrated_max_m: Option<f64>,
-    /// Ours with half the pump's flow, m.
+    /// Ours with half the pump's flow, and told so, m.
     pub half_flow_rmse_m: Option<f64>,
     /// Its largest, m.
     pub half_flow_max_m: Option<f64>,

@@ -106,9 +106,9 @@ pub(super) enum Controller {
     Uncalibrated,
     /// Feed-forward alone.
     OpenLoop,
-    /// Error times gain alone.
+    /// Error times gain, without feed-forward, preview and learning.
     Proportional,
-    /// As it is, with half the pump.
+    /// As it is, with half the pump, and told so.
     HalfFlow,
 }
 
