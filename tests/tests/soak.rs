@@ -26,15 +26,17 @@ fn works_without_a_trip(operator: Operator, minutes: &[u64]) {
 #[test]
 fn minutes_of_hard_stops_long_swings_and_weights_that_drive_the_oil_trip_nothing() {
     // 3 and 119: the boom meets its stop; 40, 82, 85, 90: it swings on closed oil for seconds; 39: the bucket falls faster than it is asked to;
-    // 280: oil pressed against a stop pushes the bucket off it; 5350: a falling boom, braked by its cushion, throws the arm.
-    works_without_a_trip(Operator::Several, &[3, 39, 40, 82, 85, 90, 119, 280, 5350]);
+    // 280: oil pressed against a stop pushes the bucket off it; 4353: an arm at its stop is let go when the bucket leaves its own; 5350: a falling
+    // boom, braked by its cushion, throws the arm.
+    works_without_a_trip(Operator::Several, &[3, 39, 40, 82, 85, 90, 119, 280, 4353, 5350]);
 }
 
 #[test]
 fn minutes_of_one_lever_at_a_time_trip_nothing_where_no_other_motion_excuses_what_rings() {
     // 31 and 811: a released boom swings back; 323: an arm rings on under a small command, 567: a swing; 183 and 247: a boom that is slowed stands for
-    // a while.
-    works_without_a_trip(Operator::OneAtATime, &[31, 183, 247, 323, 567, 811]);
+    // a while; 2903, 5947: what moves slowly stands while it rings; 1147, 5211, 5619: all three cylinders at their stops; 3575: a bucket is pushed
+    // off its stop, and clear of it still faster than it was told.
+    works_without_a_trip(Operator::OneAtATime, &[31, 183, 247, 323, 567, 811, 1147, 2903, 3575, 5211, 5619, 5947]);
 }
 
 #[test]

@@ -14,6 +14,8 @@ const KEPT: f32 = 0.8;
 const PER_S: f32 = (1.0 - KEPT) / (KEPT * ROUND_S);
 /// Share of its full speed at which oil that was pressed against a stop may push an actuator off it, however small the command that lets it.
 const OF_SPRING: f32 = 0.5;
+/// Share of that which a round keeps once the actuator is clear of the stop: a time constant of 0.2 s.
+const SPRING_KEPT: f32 = 0.96;
 /// The noise's standard deviation must be as many codes wide for its loss to be seen.
 const NOISE_CODES: f32 = 3.0;
 
@@ -47,6 +49,8 @@ pub(super) struct Channel {
     full: f32,
     per_full: f32,
     envelope: Envelope,
+    /// Speed that a stop may have given it, while it is commanded.
+    spring: f32,
     /// Rounds since the release beyond what does not ring.
     going_on: u8,
     /// Rounds outside the envelope.
@@ -80,6 +84,7 @@ impl Channel {
             full: faster,
             per_full: 1.0 / faster,
             envelope: Envelope::default(),
+            spring: 0.0,
             going_on: 0,
             outside: 0,
             limits: StuckLimits {
@@ -103,7 +108,7 @@ impl Channel {
     pub(super) fn restart(&mut self, code: u16) {
         self.begin(code);
         (self.jumped, self.wrong, self.changes, self.outside, self.going_on) = (0, None, 0.0, 0, 0);
-        self.moving = false;
+        (self.moving, self.spring) = (false, 0.0);
         (self.envelope, self.stuck) = (Envelope::default(), Stuck::default());
     }
 
@@ -155,9 +160,14 @@ impl Channel {
         let speed = self.speed();
         let (low, high) = self.envelope.bounds(model, asked);
         let mut margin = self.speed_margin + model.coupling * others * self.full;
-        if asked.moves() && self.limits.near_stop(self.round_code) {
-            margin += OF_SPRING * self.full;
-        }
+        self.spring = if !asked.moves() {
+            0.0
+        } else if self.limits.near_stop(self.round_code) {
+            OF_SPRING * self.full
+        } else {
+            self.spring * SPRING_KEPT
+        };
+        margin += self.spring;
         let inside = speed <= high + margin && speed >= low - margin;
         let codes = [self.round_before, self.round_code];
         // A swing motor, which has no sides here, coasts for as long as its brake valves let it.

@@ -15,6 +15,9 @@ use super::parameters::DiagnosisParameters;
 /// What was measured counts so many times: with a run-on of 2 s the memory of it fades by a fifth in half a swing of 0.4 s.
 const MEASURED: f32 = 1.25;
 
+/// Lately not faster than so many times the speed there must be, motion does not ring so far that it stands.
+const CALM: f32 = 1.1;
+
 /// What all actuators calculate with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
@@ -138,11 +141,13 @@ impl Envelope {
         self.sure
     }
 
-    /// What ran on from before is at most twice the speed there must be: below, its ringing may stand still for a while.
+    /// What ran on from before is at most twice the speed there must be, and it was not much faster lately than that: else its ringing may
+    /// stand still for a while, which takes a swing as fast as the motion, so that it was twice as fast half a swing before.
     #[inline(always)]
     pub(super) fn settled(&self) -> bool {
-        let sure = if self.sure > 0.0 { self.sure } else { -self.sure };
-        self.fastest() <= 2.0 * sure
+        let ([swung_out, swung_back], sure) = (self.swung, self.sure);
+        let (sure, swung) = if sure > 0.0 { (sure, swung_out) } else { (-sure, swung_back) };
+        self.fastest() <= 2.0 * sure && swung <= CALM * sure
     }
 
     /// The fastest it may run on.

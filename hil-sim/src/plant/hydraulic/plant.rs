@@ -254,7 +254,6 @@ impl HydraulicPlant {
                 if let Some(rate) = self.stopping_rate(joint, rates[joint]).filter(|_| loads.held[joint - 1].is_none())
                 {
                     loads.held[joint - 1] = Some(rate);
-                    self.against_stop[joint] = true;
                     more = true;
                 }
             }
@@ -263,9 +262,32 @@ impl HydraulicPlant {
             }
             rates = self.body.step(&self.posture, self.rates, loads, self.step_s);
         }
+        if loads.held.iter().flatten().count() > 1 {
+            rates = self.let_go(rates, loads);
+        }
+        for (against, held) in self.against_stop[1..].iter_mut().zip(loads.held) {
+            *against |= held.is_some();
+        }
         if let Some(rate) = self.stopping_rate(0, rates[0]) {
             rates[0] = rate;
             self.against_stop[0] = true;
+        }
+        rates
+    }
+
+    /// A stop pushes and does not pull: a joint that was pushed against its end only by one that is itself held by now is let go.
+    fn let_go(&self, mut rates: [f64; 4], loads: &mut Loads) -> [f64; 4] {
+        for joint in 1..4 {
+            let held = loads.held[joint - 1].take();
+            let without = self.body.step(&self.posture, self.rates, loads, self.step_s);
+            let stays = |joint: usize| self.stopping_rate(joint, without[joint]);
+            // Without it no other may pass its end either.
+            let passes = (1..4).any(|other| loads.held[other - 1].is_none() && stays(other).is_some());
+            if held.is_some() && passes {
+                loads.held[joint - 1] = held;
+            } else if held.is_some() {
+                rates = without;
+            }
         }
         rates
     }
