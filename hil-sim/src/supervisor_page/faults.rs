@@ -47,12 +47,12 @@ swing back at 1.25 times what it was seen to swing out, a memory that fades with
 cylinder that keeps its way may be beyond the straight line, on which the speed it was measured at falls to rest 2 s after the release, for 344 ms
 at most, half a swing at 1.45 Hz; longer, and its spool sticks open. A swing motor coasts for as long as its brake valves let it.
 Oil that was pressed against a stop may push an actuator off it at half its full speed more than any command that lets it, within a thirty-second of
-the stroke.
+the stroke, and fading in 0.2 s once it is clear of that.
 Speed outside this, and 0.03 m/s (rad/s of a swing motor) more, for 56 ms is motion *uncommanded* or *against the command*. The slowest
 healthy actuator predicts the travel after which a sensor must have followed: a code that has not changed once for 96 ms and 5 mm of predicted
 travel is *stuck*, a living sensor's noise never stands still so long; one that keeps its noise is stuck when the driven side's pressure is
-between 2 and 15 MPa, which moves a cylinder but stalls none, and what ran on from before is at most twice the speed that is due: below a higher
-speed's ringing an actuator may stand still for a while. `DiagnosisParameters` holds all of these; its defaults follow from the valves'
+between 2 and 15 MPa, which moves a cylinder but stalls none, and what ran on from before is at most twice the speed that is due and nothing was seen
+lately faster than 1.1 times that: below a higher speed's ringing an actuator may stand still for a while. `DiagnosisParameters` holds all of these; its defaults follow from the valves'
 full speeds and the sensors' noise.
 
 ";
