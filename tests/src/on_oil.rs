@@ -39,7 +39,7 @@ impl OnOil {
             rig,
             plant: Plant::hydraulic(model, scenario.coil, [0.0, boom, arm, bucket])
                 .expect("a start within the strokes"),
-            parameters: scenario.parameters.clone(),
+            parameters: scenario.parameters,
             machine: Machine::new(&scenario.parameters.geometry).expect("a valid geometry"),
         }
     }
