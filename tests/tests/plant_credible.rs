@@ -139,3 +139,24 @@ fn the_boom_rings_at_two_to_five_hertz_when_it_is_stopped() {
         assert!(peak(turns[1], turns[2]) < peak(turns[0], turns[1]));
     }
 }
+
+#[test]
+fn at_three_stops_each_cylinder_alone_leaves_its_own() {
+    let model = model("zx200");
+    for start in [[0.0, 1.0, 0.0], [0.0, 1.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]] {
+        for function in [BOOM, ARM, BUCKET] {
+            let out = if start[function - 1] > 0.5 { -1.0 } else { 1.0 };
+            let mut plant = at(&model, shares(&model, start));
+            // Pressed against all three stops, one after the other: their oil stays pressed.
+            for pressed in [BOOM, ARM, BUCKET] {
+                let against = if start[pressed - 1] > 0.5 { 1.0 } else { -1.0 };
+                run(&mut plant, &model, lever(pressed, against), 700);
+            }
+            let before = plant.positions();
+            run(&mut plant, &model, lever(function, out), 1500);
+            let moved = (plant.positions()[function] - before[function]) * out;
+            println!("from {start:?}, function {function}: {:.0} mm in 1.5 s", moved * 1e3);
+            assert!(moved > 0.1, "from {start:?}, function {function}: {moved}");
+        }
+    }
+}
