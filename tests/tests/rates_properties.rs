@@ -73,6 +73,35 @@ proptest! {
     }
 
     #[test]
+    fn the_moment_arms_change_as_their_slopes_say((g, at) in any_pose(), rates in three()) {
+        let machine = Machine::<f64>::new(&g).unwrap();
+        // Clear of the ends, between which the difference is taken.
+        let lengths = cylinders([0, 1, 2].map(|i| {
+            let stroke = [g.boom.stroke, g.arm.stroke, g.bucket.stroke][i];
+            stroke.min_m + 0.05 * (stroke.max_m - stroke.min_m) + 0.9 * (at[i] - stroke.min_m)
+        }));
+        let joints = machine.cylinders_to_joints(&lengths).unwrap();
+        let told = machine.moments(&lengths).unwrap().rates(&joint_rates(rates));
+        let arms = |time: f64| {
+            let turned = |joint: Rotor<f64>, rate: f64| joint * Rotor::from_degrees((rate * time).to_degrees());
+            machine.moment_arms_at(&Joints {
+                boom: turned(joints.boom, rates[0]),
+                arm: turned(joints.arm, rates[1]),
+                bucket: turned(joints.bucket, rates[2]),
+            })
+        };
+        const STEP_S: f64 = 1e-5;
+        let (before, after) = (arms(-STEP_S).unwrap(), arms(STEP_S).unwrap());
+        let slope = |before: f64, after: f64| (after - before) / (2.0 * STEP_S);
+        let found = [
+            slope(before.boom, after.boom),
+            slope(before.arm, after.arm),
+            slope(before.bucket, after.bucket),
+        ];
+        prop_assert!(close([told.boom, told.arm, told.bucket], found, 1e-5), "{told:?} {found:?}");
+    }
+
+    #[test]
     fn all_four_joints_to_tip_twist_and_back_come_back((g, at) in any_pose(), rates in three(), turning in -1.0..1.0, swing in -180.0..180.0) {
         let machine = Machine::<f64>::new(&g).unwrap();
         let pose = machine.cylinders_to_tip(&cylinders(at), Rotor::from_degrees(swing)).unwrap();

@@ -154,3 +154,15 @@ impl<T: Real> Effort<T> {
         pairs.fold(T::ZERO, |sum, (from, to)| sum + self.between(from, to))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Piston;
+
+    #[test]
+    fn two_cylinders_take_twice_the_oil_of_one_and_the_rod_takes_its_area_away() {
+        let areas = |count| Piston { bore_m: 2.0, rod_m: 1.0, count }.areas_m2();
+        assert_eq!(areas(1), [core::f64::consts::PI, 0.75 * core::f64::consts::PI]);
+        assert_eq!(areas(2), areas(1).map(|area| 2.0 * area));
+    }
+}
